@@ -1,0 +1,1 @@
+"""Every run on record: recorder, reader, replay, score and report of MCAP bags."""

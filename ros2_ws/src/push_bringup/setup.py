@@ -1,0 +1,27 @@
+from glob import glob
+
+from setuptools import find_packages, setup
+
+setup(
+    name='push_bringup',
+    version='0.1.0',
+    description='The cell as a whole: one parameter file, the cell command that runs a node graph, the launch file and the benchmarks.',
+    license='Apache-2.0',
+    packages=find_packages(exclude=['test']),
+    package_data={'': ['py.typed']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/push_bringup']),
+        ('share/push_bringup', ['package.xml']),
+        ('share/push_bringup/config', glob('config/*')),
+        ('share/push_bringup/launch', glob('launch/*')),
+    ],
+    install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
+    zip_safe=False,
+    entry_points={
+        'console_scripts': [
+            'cell = push_bringup.cell:main',
+            'bench = push_bringup.bench:main',
+        ],
+    },
+)

@@ -1,0 +1,24 @@
+from setuptools import find_packages, setup
+
+setup(
+    name='push_gp',
+    version='0.1.0',
+    description='The model: pushes, Gaussian processes over contact point and push direction, and the server that answers for them.',
+    license='Apache-2.0',
+    packages=find_packages(exclude=['test']),
+    package_data={'': ['py.typed']},
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/push_gp']),
+        ('share/push_gp', ['package.xml']),
+    ],
+    install_requires=['setuptools'],
+    extras_require={'test': ['pytest']},
+    zip_safe=False,
+    entry_points={
+        'console_scripts': [
+            'gp_server = push_gp.gp_server:main',
+            'train = push_gp.train:main',
+            'evaluate = push_gp.evaluate:main',
+        ],
+    },
+)

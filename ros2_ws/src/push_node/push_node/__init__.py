@@ -1,0 +1,1 @@
+"""What every node of the cell shares: spinning, parameters from settings, quality of service, diagnostics."""
