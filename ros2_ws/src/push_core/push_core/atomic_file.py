@@ -1,0 +1,46 @@
+"""Files that are either written whole or not at all."""
+
+import contextlib
+import os
+import tempfile
+from pathlib import Path
+
+from push_core.errors import InputError
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Writes a file beside its place and moves it there; a reader never sees half of it.
+
+    Args:
+        path: where the file shall be; an existing one is replaced.
+        content: all of it.
+
+    Raises:
+        InputError: the folder is missing or closed to us, or the disk is full.
+    """
+    try:
+        _write_and_move(path, content)
+    except OSError as error:
+        raise InputError(f'cannot write {path}: {error.strerror}') from error
+
+
+def _write_and_move(path: Path, content: bytes) -> None:
+    descriptor, name = tempfile.mkstemp(dir=path.parent, prefix=f'.{path.name}.')
+    try:
+        with os.fdopen(descriptor, 'wb') as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        # mkstemp makes files private; give this one the rights of any other new file
+        Path(name).chmod(0o666 & ~_umask())
+        Path(name).replace(path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            Path(name).unlink()
+        raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

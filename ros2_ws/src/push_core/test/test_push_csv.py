@@ -1,0 +1,157 @@
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from push_core.errors import InputError
+from push_core.push_csv import COLUMNS, read_pushes, write_pushes
+from push_core.push_set import PushSet
+
+HEADER = ','.join(COLUMNS)
+GOOD_ROW = '0.01,1.5,0.003,0.0001,-0.02,0.004'
+
+
+@pytest.fixture
+def pushes() -> PushSet:
+    generator = np.random.default_rng(1)
+    return PushSet(
+        generator.uniform(-0.045, 0.045, 20),
+        generator.uniform(0.1, 3.0, 20),
+        generator.normal(0, 1e-3, (20, 3)),
+        0.004,
+        {'subset_7': np.arange(20) < 7},
+    )
+
+
+def refusal(folder: Path, text: str | bytes) -> str:
+    path = folder / 'pushes.csv'
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(InputError) as caught:
+        read_pushes(path)
+    message = str(caught.value)
+    assert str(path) in message
+    assert '\n' not in message
+    return message
+
+
+def test_a_written_set_reads_back_bit_for_bit(pushes: PushSet, tmp_path: Path) -> None:
+    write_pushes(tmp_path / 'a.csv', pushes)
+    again = read_pushes(tmp_path / 'a.csv')
+    assert again.sha256() == pushes.sha256()
+    assert np.array_equal(again.displacement, pushes.displacement)
+    assert np.array_equal(again.subsets['subset_7'], pushes.subsets['subset_7'])
+
+
+def test_columns_may_come_in_any_order_with_blank_lines_and_a_byte_order_mark(
+    tmp_path: Path,
+) -> None:
+    names = ','.join(reversed(COLUMNS))
+    row = ','.join(reversed(GOOD_ROW.split(',')))
+    (tmp_path / 'a.csv').write_text(f'\ufeff{names}\n\n{row}\n', encoding='utf-8')
+    pushes = read_pushes(tmp_path / 'a.csv')
+    assert pushes.p_y == [0.01]
+    assert pushes.displacement.tolist() == [[0.003, 0.0001, -0.02]]
+
+
+@pytest.mark.parametrize(
+    ('row', 'fault'),
+    [
+        ('0.01,1.5,0.003,0.0001,-0.02', 'has 5 values, not 6'),
+        ('0.01,1.5,0.003,0.0001,-0.02,0.004,1', 'has 7 values'),
+        ('0.01,1.5,,0.0001,-0.02,0.004', "dx_m is '', not a number"),
+        ('0.01,nan,0.003,0.0001,-0.02,0.004', 'beta_rad is nan'),
+        ('0.01,1.5,inf,0.0001,-0.02,0.004', 'dx_m is inf'),
+        ('0.06,1.5,0.003,0.0001,-0.02,0.004', 'p_y is 0.06 m'),
+        ('0.01,3.2,0.003,0.0001,-0.02,0.004', 'beta is 3.2 rad'),
+        ('0.01,0,0.003,0.0001,-0.02,0.004', 'beta is 0 rad'),
+        ('0.01,1.5,3.1,0.1,-0.02,0.004', 'no push moves the object by 3.1 m'),
+        ('0.01,1.5,0.003,0.0001,-0.02,0.005', 'one set holds pushes of one distance'),
+    ],
+)
+def test_a_bad_row_is_refused_with_its_line(row: str, fault: str, tmp_path: Path) -> None:
+    message = refusal(tmp_path, f'{HEADER}\n{GOOD_ROW}\n\n{row}\n{GOOD_ROW}\n')
+    assert 'line 4' in message
+    assert fault in message
+
+
+@pytest.mark.parametrize(
+    ('text', 'fault'),
+    [
+        ('', 'is empty'),
+        ('\n\n', 'is empty'),
+        (HEADER + '\n', 'holds no pushes'),
+        (
+            'x0_m,y0_m\n1,2\n',
+            'column p_y_m, beta_rad, dx_m, dy_m, dtheta_rad, distance_m is missing',
+        ),
+        (f'{HEADER},mass\n{GOOD_ROW},1\n', "unknown column 'mass'"),
+        (f'{HEADER},dx_m\n{GOOD_ROW},1\n', 'column dx_m is there twice'),
+        (f'{HEADER},subset_5\n{GOOD_ROW},2\n', 'subset_5 is 2, must be 0 or 1'),
+        (f'{HEADER}\n0.01,1.5,0.003,0.0001,-0.02,0\n', 'must be between 0 and 1 m'),
+        (b'PK\x03\x04\xff\xfe\x00', 'is not a CSV text file'),
+    ],
+)
+def test_a_bad_file_is_refused_with_its_fault(
+    text: str | bytes, fault: str, tmp_path: Path
+) -> None:
+    assert fault in refusal(tmp_path, text)
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r'none.csv: No such file'):
+        read_pushes(tmp_path / 'none.csv')
+    with pytest.raises(InputError, match='cannot read'):
+        read_pushes(tmp_path)
+
+
+def test_writing_into_a_missing_folder_is_refused(pushes: PushSet, tmp_path: Path) -> None:
+    with pytest.raises(InputError, match='cannot write'):
+        write_pushes(tmp_path / 'none' / 'a.csv', pushes)
+
+
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(
+    pushes: PushSet, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'a.csv').write_text('old')
+
+    def disk_full(_descriptor: int) -> None:
+        raise OSError(28, 'No space left on device')
+
+    monkeypatch.setattr(os, 'fsync', disk_full)
+    with pytest.raises(InputError, match='No space left'):
+        write_pushes(tmp_path / 'a.csv', pushes)
+    assert [path.name for path in tmp_path.iterdir()] == ['a.csv']
+    assert (tmp_path / 'a.csv').read_text() == 'old'
+
+
+def test_the_measured_pushes_read_whole() -> None:
+    folder = Path(os.environ.get('PUSH_DATA_DIR', _beside_the_project() / 'shared' / 'data'))
+    if not folder.is_dir():
+        pytest.skip(f'no measured pushes in {folder}')
+    pushes = read_pushes(folder / 'square_4mm_pushes.csv')
+    assert len(pushes) == 2987
+    assert pushes.distance == 0.004
+    assert pushes.subsets['subset_500'].sum() == 500
+
+
+def _beside_the_project() -> Path:
+    return Path(__file__).resolve().parents[5]
+
+
+def test_a_set_refuses_values_that_are_no_pushes() -> None:
+    with pytest.raises(InputError, match='push 1: p_y = nan'):
+        PushSet(np.array([0.0, np.nan]), np.ones(2), np.zeros((2, 3)), 0.004)
+    with pytest.raises(InputError, match='n x 3'):
+        PushSet(np.zeros(2), np.ones(2), np.zeros((3, 2)), 0.004)
+
+
+def test_a_set_cannot_be_changed_behind_its_back(pushes: PushSet) -> None:
+    with pytest.raises(ValueError, match='read-only'):
+        pushes.p_y[0] = 0.0
+
+
+def test_only_pushes_of_the_same_distance_join(pushes: PushSet) -> None:
+    other = PushSet(pushes.p_y, pushes.beta, pushes.displacement, 0.005)
+    assert len(pushes.joined(pushes)) == 40
+    with pytest.raises(InputError, match='do not join'):
+        pushes.joined(other)
