@@ -1,1 +1,1 @@
-"""The physics every part of the cell shares: frames, slider, limit surface, motion cone, tracks, actuator, safety limits. numpy only."""
+"""The physics every part of the cell shares; numpy only."""

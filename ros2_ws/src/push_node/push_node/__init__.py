@@ -1,1 +1,1 @@
-"""What every node of the cell shares: spinning, parameters from settings, quality of service, diagnostics."""
+"""What every node of the cell shares: spinning, parameters, quality of service, diagnostics."""

@@ -1,0 +1,60 @@
+"""Parameters of a node, declared once from its settings class."""
+
+from typing import Any, TypeVar
+
+from push_core.errors import InputError
+from push_core.settings import Described, flatten, replaced
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+
+T = TypeVar('T')
+_NOT_OURS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+
+
+def declared(node: Node, defaults: T) -> T:
+    """Declares every value of a settings object as a parameter and applies the overrides.
+
+    Args:
+        node: the node that owns the parameters.
+        defaults: settings made with `push_core.settings`.
+
+    Returns:
+        The settings with the overrides of command line and parameter file.
+
+    Raises:
+        InputError: an unknown parameter, a wrong type or a value out of range.
+    """
+    known = flatten(defaults)
+    reject_unknown(node, set(known))
+    changes = {
+        name: _declare(node, name, value, described) for name, (value, described) in known.items()
+    }
+    return replaced(defaults, changes)
+
+
+def override(node: Node, name: str, default: T) -> T:
+    """The value that the command line or the parameter file gives for one name, undeclared."""
+    found = node._parameter_overrides.get(name)
+    return default if found is None else found.value
+
+
+def reject_unknown(node: Node, known: set[str]) -> None:
+    """Fails the start on a parameter that the node does not have; rclpy would ignore it.
+
+    Raises:
+        InputError: names the parameter and those that exist.
+    """
+    for name in node._parameter_overrides:
+        if name not in known and not name.startswith(_NOT_OURS):
+            listed = ', '.join(sorted(known))
+            raise InputError(f'unknown parameter {name!r} of {node.get_name()}; known: {listed}')
+
+
+def _declare(node: Node, name: str, value: Any, described: Described) -> Any:
+    descriptor = ParameterDescriptor(
+        description=described.text,
+        additional_constraints=described.range_text(),
+        read_only=True,
+        dynamic_typing=True,
+    )
+    return node.declare_parameter(name, value, descriptor).value

@@ -1,0 +1,18 @@
+"""Quality of service of the cell's topics."""
+
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+# a deadline connects only where publisher and subscriber both name it
+POSE = QoSProfile(
+    depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, deadline=Duration(nanoseconds=20_000_000)
+)
+COMMAND = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
+LATCHED = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+STATE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+EVENT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+SCENE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
