@@ -1,0 +1,72 @@
+"""Takes messages of a topic as bytes, with the middleware's times and numbers."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from push_bag.message_types import message_class
+
+DEPTH = 1000  # messages that may wait between two polls
+
+
+class RawMessage(NamedTuple):
+    """One message as it came: bytes, times [ns] and the publisher's number of it."""
+
+    data: bytes
+    received_ns: int
+    published_ns: int
+    sequence: int
+
+
+class RawSubscription:
+    """A subscription that is polled.
+
+    Its node must be in no executor: rclpy's EventsExecutor cannot hand the middleware's times and
+    sequence numbers to a callback.
+    """
+
+    def __init__(self, node: Node, topic: str, type_name: str, offered: QoSProfile) -> None:
+        """Subscribes.
+
+        Args:
+            node: in no executor.
+            topic: full name.
+            type_name: in three parts.
+            offered: what the publishers offer; the subscription takes all of it.
+
+        Raises:
+            InputError: the type is not installed.
+        """
+        self._type: Any = message_class(type_name)
+        self._subscription: Any = node.create_subscription(
+            self._type, topic, _ignore, _matching(offered), raw=True
+        )
+
+    def take_all(self) -> Iterator[RawMessage]:
+        """All messages that have come since the last call, oldest first."""
+        handle = self._subscription.handle
+        with handle:
+            while (taken := handle.take_message(self._type, True)) is not None:
+                data, about = taken
+                yield RawMessage(
+                    data,
+                    about['received_timestamp'],
+                    about['source_timestamp'],
+                    about['publication_sequence_number'] or 0,
+                )
+
+
+def _ignore(_message: object) -> None:
+    """Never called: the node is in no executor."""
+
+
+def _matching(offered: QoSProfile) -> QoSProfile:
+    reliable = offered.reliability == ReliabilityPolicy.RELIABLE
+    latched = offered.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    return QoSProfile(
+        depth=DEPTH,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )

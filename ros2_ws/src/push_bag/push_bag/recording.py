@@ -1,0 +1,100 @@
+"""A recording in progress: finds publishers, takes their messages, writes them to the bag."""
+
+from collections.abc import Collection, Mapping
+
+import rclpy
+from push_core.errors import InputError
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from push_bag.bag_writer import BagWriter
+from push_bag.qos_text import qos_text
+from push_bag.raw_subscription import RawSubscription
+from push_bag.traffic import Traffic
+
+
+class Recording:
+    """Records topics as their publishers appear; call its methods from timers.
+
+    Attributes:
+        traffic: received and lost per recorded topic.
+        refused: topics that are published but cannot be recorded, with the reason.
+    """
+
+    def __init__(
+        self, writer: BagWriter, topics: Collection[str], offers: Mapping[str, QoSProfile]
+    ) -> None:
+        """Starts with nothing subscribed.
+
+        Args:
+            writer: the open bag; closed by `close`.
+            topics: full names of the topics to record.
+            offers: what is known of the publishers' profiles by topic; discovery does not tell
+                their depth, so the bag states these where it can.
+        """
+        self.traffic: dict[str, Traffic] = {}
+        self.refused: dict[str, str] = {}
+        self._writer = writer
+        self._topics = topics
+        self._offers = offers
+        self._subscriptions: dict[str, RawSubscription] = {}
+        # its subscriptions are polled, so this node is in no executor
+        self._listener: Node = rclpy.create_node(
+            'recorder_listener',
+            use_global_arguments=False,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
+
+    def discover(self) -> None:
+        """Subscribes to the wanted topics that have a publisher by now."""
+        for topic, types in self._listener.get_topic_names_and_types():
+            if topic in self._topics and topic not in self.traffic and topic not in self.refused:
+                self._subscribe(topic, types[0])
+
+    def drain(self) -> None:
+        """Writes all messages that have come since the last call.
+
+        Raises:
+            RunError: the bag cannot be written.
+        """
+        for topic, subscription in self._subscriptions.items():
+            seen = self.traffic[topic]
+            for taken in subscription.take_all():
+                self._writer.write(topic, *taken)
+                seen.saw(taken.sequence, taken.received_ns)
+
+    def flush(self) -> None:
+        """Ends the chunk in progress, so that a kill loses nothing older.
+
+        Raises:
+            RunError: the bag cannot be written.
+        """
+        self._writer.flush()
+
+    def close(self) -> None:
+        """Takes what still waits and finishes the bag.
+
+        Raises:
+            RunError: the bag cannot be written.
+        """
+        try:
+            if self._writer.is_open:
+                self.drain()
+                self._writer.close()
+        finally:
+            self._listener.destroy_node()
+
+    def _subscribe(self, topic: str, type_name: str) -> None:
+        publishers = self._listener.get_publishers_info_by_topic(topic)
+        if not publishers:
+            return
+        offered = publishers[0].qos_profile
+        try:
+            subscription = RawSubscription(self._listener, topic, type_name, offered)
+            self._writer.add_topic(topic, type_name, qos_text(self._offers.get(topic, offered)))
+        except InputError as error:
+            self.refused[topic] = str(error)
+            return
+        self._subscriptions[topic] = subscription
+        self.traffic[topic] = Traffic()
