@@ -8,11 +8,13 @@ or is handed over directly, its reader gets the same number.
 import math
 
 _STEPS_PER_RADIAN = 2.0**40
+_HALF_TURN = math.floor(math.pi * _STEPS_PER_RADIAN)
 
 
 def grid_yaw(yaw: float) -> float:
     """The nearest yaw [rad] that a trip through a quaternion leaves as it is, in [-pi, pi]."""
-    return round(math.remainder(yaw, math.tau) * _STEPS_PER_RADIAN) / _STEPS_PER_RADIAN
+    steps = round(math.remainder(yaw, math.tau) * _STEPS_PER_RADIAN)
+    return max(-_HALF_TURN, min(_HALF_TURN, steps)) / _STEPS_PER_RADIAN
 
 
 def yaw_to_quaternion(yaw: float) -> tuple[float, float, float, float]:
