@@ -3,7 +3,7 @@ from setuptools import find_packages, setup
 setup(
     name='push_gp',
     version='0.1.0',
-    description='The model: pushes, Gaussian processes over contact point and push direction, and the server that answers for them.',
+    description='Gaussian processes of planar pushing, and the server that answers for them.',
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed']},

@@ -1,1 +1,1 @@
-"""The model: pushes, Gaussian processes over contact point and push direction, and the server that answers for them."""
+"""The model: Gaussian processes over contact point and push direction, and their server."""

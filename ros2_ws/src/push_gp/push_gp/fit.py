@@ -1,0 +1,71 @@
+"""Finds the hyperparameters of one output: the maximum of marginal likelihood times prior.
+
+Fully deterministic: fixed starts on a part of the pushes, then ever more pushes from the best.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from push_core.errors import RunError
+from push_core.frames import Array
+from scipy.optimize import OptimizeResult, minimize
+
+from push_gp.hyperparameters import Hyperparameters
+from push_gp.likelihood import MarginalLikelihood
+from push_gp.prior import Prior
+
+FIRST_STAGE = 300
+STAGE_GROWTH = 4
+"""Restarts run on 300 pushes; each later stage takes four times as many, from the best so far."""
+
+STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0], [1, 1, 0.3, 3]])
+"""(k, 4) factors on the prior's centre where the search starts."""
+
+HOPELESS = 1e25
+
+
+def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
+    """The most likely hyperparameters.
+
+    Args:
+        inputs: (n, 2) contact offsets [m] and directions [rad].
+        outputs: (n,) displacements of one kind [m or rad].
+        prior: belief about them, with bounds.
+
+    Raises:
+        RunError: no start led to a finite likelihood.
+    """
+    starts = prior.centre + STARTS
+    for rows in _stages(len(outputs)):
+        likelihood = MarginalLikelihood(inputs[rows], outputs[rows])
+        found = [_climb(likelihood, prior, start) for start in starts]
+        best = min(found, key=lambda result: float(result.fun))
+        starts = best.x[None, :]
+    if best.fun >= HOPELESS:
+        raise RunError('no hyperparameters explain these pushes; are there many repeated rows?')
+    return Hyperparameters.from_logarithms(best.x)
+
+
+def _stages(count: int) -> Iterator[slice]:
+    """Growing selections, spread evenly over the rows; the last one is everything."""
+    size = FIRST_STAGE
+    while size < count:
+        yield slice(None, None, -(-count // size))
+        size *= STAGE_GROWTH
+    yield slice(None)
+
+
+def _climb(likelihood: MarginalLikelihood, prior: Prior, start: Array) -> OptimizeResult:
+    def loss(logarithms: Array) -> tuple[float, Array]:
+        hyperparameters = Hyperparameters.from_logarithms(logarithms)
+        try:
+            value, slope = likelihood.with_gradient(hyperparameters)
+        except RunError:
+            return HOPELESS, np.zeros(4)
+        belief, belief_slope = prior.with_gradient(logarithms)
+        return -value - belief, -slope - belief_slope
+
+    bounds = list(zip(prior.low, prior.high, strict=True))
+    return minimize(
+        loss, np.clip(start, prior.low, prior.high), jac=True, method='L-BFGS-B', bounds=bounds
+    )

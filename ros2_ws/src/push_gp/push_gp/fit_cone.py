@@ -1,0 +1,46 @@
+"""Fits the two numbers of the motion cone that a table of materials does not tell."""
+
+import numpy as np
+from push_core.frames import Array
+from push_core.push_set import HALF_FACE, PushSet
+from push_core.slider import Slider
+from scipy.optimize import least_squares
+
+from push_gp.analytical_model import AnalyticalModel
+
+NOMINAL = Slider(friction_pusher=0.3, support_radius=0.0344)
+"""Tabulated friction, and the support radius of uniform pressure."""
+
+BELIEF = np.array([0.3, 0.05])
+"""Standard deviations of the logarithms of friction and support radius about the nominal."""
+
+MISFIT = 0.1
+"""Typical residual of the motion cone, in units of the distance; it weighs data against belief."""
+
+LARGEST_CHANGE = 1.0
+
+
+def fitted_cone(pushes: PushSet) -> AnalyticalModel:
+    """The motion cone that fits the pushes best, its friction and support radius learned.
+
+    With few pushes it stays near the nominal values: least squares with a Gaussian belief about
+    the logarithms of both.
+    """
+    unit = np.array([1.0, 1.0, 1.0 / HALF_FACE]) * pushes.distance * MISFIT
+
+    def misfit(logarithms: Array) -> Array:
+        expected, _ = _cone(logarithms, pushes.distance).evaluate(pushes.p_y, pushes.beta)
+        left = (pushes.displacement - expected) / unit
+        return np.concatenate((left.ravel(), logarithms / BELIEF))
+
+    bounds = (-LARGEST_CHANGE, LARGEST_CHANGE)
+    return _cone(least_squares(misfit, np.zeros(2), bounds=bounds).x, pushes.distance)
+
+
+def _cone(logarithms: Array, distance: float) -> AnalyticalModel:
+    friction, radius = np.exp(logarithms).tolist()
+    slider = Slider(
+        friction_pusher=NOMINAL.friction_pusher * friction,
+        support_radius=NOMINAL.support_radius * radius,
+    )
+    return AnalyticalModel(slider, distance)

@@ -1,0 +1,40 @@
+"""From pushes to a model."""
+
+from collections.abc import Callable
+
+from push_core.push_set import PushSet
+
+from push_gp.analytical_model import AnalyticalModel
+from push_gp.fit import fit
+from push_gp.fit_cone import fitted_cone
+from push_gp.gp_model import GpModel, residuals
+from push_gp.mean_function import MeanFunction, ZeroMean
+from push_gp.model import OUTPUTS
+from push_gp.prior import CONE_MEAN, ZERO_MEAN, priors
+
+
+def learned(
+    pushes: PushSet, mean: str = 'zero', progress: Callable[[str], None] = lambda _output: None
+) -> GpModel:
+    """The most likely model of a push set; the same set gives the same model bit for bit.
+
+    Args:
+        pushes: the training set.
+        mean: 'zero' as in the paper, or 'analytical': the motion cone, itself fitted.
+        progress: told the name of each output that is done.
+
+    Raises:
+        RunError: no hyperparameters explain the pushes.
+    """
+    mean_function = _mean_function(pushes, mean)
+    centres = CONE_MEAN if isinstance(mean_function, AnalyticalModel) else ZERO_MEAN
+    found = []
+    left = residuals(pushes, mean_function)
+    for name, outputs, prior in zip(OUTPUTS, left, priors(centres, pushes.distance), strict=True):
+        found.append(fit(pushes.inputs, outputs, prior))
+        progress(name)
+    return GpModel.conditioned(pushes, mean_function, found)
+
+
+def _mean_function(pushes: PushSet, mean: str) -> MeanFunction:
+    return fitted_cone(pushes) if mean == 'analytical' else ZeroMean()
