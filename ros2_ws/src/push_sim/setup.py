@@ -3,7 +3,7 @@ from setuptools import find_packages, setup
 setup(
     name='push_sim',
     version='0.1.0',
-    description='The plant: a PyBullet world with the lag of the robot and the noise of the cameras, and the collection of pushes.',
+    description='The plant: a PyBullet world, the lag of the robot and the noise of the cameras.',
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed']},

@@ -1,1 +1,1 @@
-"""The plant: a PyBullet world with the lag of the robot and the noise of the cameras, and the collection of pushes."""
+"""The plant: a PyBullet world with the lag of the robot and the noise of the cameras."""

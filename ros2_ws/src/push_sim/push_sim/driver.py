@@ -1,0 +1,52 @@
+"""The robot's own driver: passes commands on, and brakes when they stop coming."""
+
+import math
+from collections import deque
+
+import numpy as np
+from push_core.actuator import Actuator, ActuatorSettings
+from push_core.frames import Array
+
+
+class Driver:
+    """Feeds the actuator; its watchdog runs on the plant's clock, not on the commands' stamps."""
+
+    def __init__(self, settings: ActuatorSettings, timeout: float) -> None:
+        self._actuator = Actuator(settings)
+        self._timeout = timeout
+        self.reset()
+
+    def reset(self) -> None:
+        """At rest, no command under way or known."""
+        self._actuator.reset()
+        self._inbox: deque[tuple[float, Array]] = deque()
+        self._last_arrival = -math.inf
+        self._braking = True
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity (2,) of the tip [m/s]."""
+        return self._actuator.velocity
+
+    @property
+    def braking(self) -> bool:
+        """Whether the watchdog holds the tip, or brings it to rest."""
+        return self._braking
+
+    def command(self, velocity: Array, arrival: float) -> None:
+        """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one."""
+        self._inbox.append((arrival, np.array(velocity, dtype=float)))
+
+    def advance(self, now: float, duration: float) -> Array:
+        """Moves on from `now` by `duration` [s]; returns the mean velocity (2,) of the tip."""
+        self._open_inbox(now)
+        self._braking = now - self._last_arrival > self._timeout
+        if self._braking:
+            # a stop does not wait in the queue and does not pass the lag
+            return self._actuator.brake(duration)
+        return self._actuator.advance(now, duration)
+
+    def _open_inbox(self, now: float) -> None:
+        while self._inbox and self._inbox[0][0] <= now:
+            self._last_arrival, velocity = self._inbox.popleft()
+            self._actuator.command(velocity, self._last_arrival)

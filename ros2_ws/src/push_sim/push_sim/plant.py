@@ -1,0 +1,168 @@
+"""The plant: world, robot, cameras and disturbances, one period at a time."""
+
+import math
+
+import numpy as np
+from push_core.errors import InputError
+from push_core.frames import Array
+from push_core.slider import Slider
+
+from push_sim.bullet_world import BulletWorld
+from push_sim.driver import Driver
+from push_sim.perturbation import Disturbance, Perturbation, Schedule, disturb
+from push_sim.sensor import Observation, Sensor
+from push_sim.settings import PERIOD, SimSettings
+
+__all__ = ['Observation', 'Plant']
+
+_NANOSECOND = 1e-9
+
+
+class Plant:
+    """What stands behind the topics; knows nothing of ROS.
+
+    Plant time is counted in whole nanoseconds and begins at `START`: zero means 'not set' in
+    ROS, and the first exposure lies one latency before the first period.
+    """
+
+    period = PERIOD
+    START = 1.0
+
+    def __init__(self, settings: SimSettings, slider: Slider) -> None:
+        self._world = BulletWorld(settings.world, slider)
+        self._driver = Driver(settings.actuator, settings.command_timeout)
+        self._sensor = Sensor(settings.sensor)
+        self._schedule = Schedule(settings.perturbation)
+        self._substeps = settings.world.substeps
+        self._latency = _whole_substeps(settings)
+        self._disturbances: list[Disturbance] = []
+        self._ticks = 0
+
+    def reset(self, object_pose: Array, tip_position: Array, seed: int) -> Observation:
+        """Puts the plant into an exact state, whatever happened before.
+
+        Args:
+            object_pose: (3,) x [m], y [m], theta [rad].
+            tip_position: (2,) centre of the tip [m].
+            seed: of all that is drawn at random, not negative.
+
+        Returns:
+            The first observation; the object has been resting so far.
+
+        Raises:
+            InputError: a value is not finite, or the seed is negative.
+        """
+        _check_start(object_pose, tip_position, seed)
+        self._ticks = 0
+        self._world.reset(object_pose, tip_position)
+        self._driver.reset()
+        self._schedule.reset()
+        self._sensor.reset(seed)
+        self._disturbances.clear()
+        self._disturb_if_due()
+        for late in range(self._latency, -1, -self._substeps):
+            self._expose(-late)
+        return self.observe()
+
+    def command(self, velocity: Array, arrival: float) -> None:
+        """Hands a tip velocity (2,) [m/s] to the driver at a plant time [s], now or later."""
+        if np.any(velocity):
+            self._schedule.motion_commanded(arrival)
+        self._driver.command(velocity, arrival)
+
+    def step(self) -> Observation:
+        """Advances one period; returns what the sensor shows then."""
+        self._disturb_if_due()
+        exposure = (-self._latency) % self._substeps or self._substeps
+        for substep in range(self._substeps):
+            mean_velocity = self._driver.advance(self._time(substep), self._substep)
+            self._world.advance(mean_velocity, 1)
+            if substep + 1 == exposure:
+                self._expose(exposure)
+        self._ticks += 1
+        return self.observe()
+
+    def observe(self) -> Observation:
+        """What the sensor shows now."""
+        return self._sensor.show(self._latency // self._substeps)
+
+    def perturb(self, perturbation: Perturbation) -> Disturbance:
+        """Disturbs the object now."""
+        disturbance = disturb(self._world, perturbation, self.time)
+        self._disturbances.append(disturbance)
+        return disturbance
+
+    def take_disturbances(self) -> list[Disturbance]:
+        """The disturbances since the last call, in their order."""
+        taken, self._disturbances = self._disturbances, []
+        return taken
+
+    def close(self) -> None:
+        """Frees the physics server."""
+        self._world.close()
+
+    @property
+    def time(self) -> float:
+        """Plant time [s]."""
+        return self._time(0)
+
+    @property
+    def object_pose(self) -> Array:
+        """True pose (3,) of the object: x [m], y [m], theta [rad]."""
+        return self._world.object_pose
+
+    @property
+    def tip_position(self) -> Array:
+        """True centre (2,) of the tip [m]."""
+        return self._world.tip_position
+
+    @property
+    def tip_velocity(self) -> Array:
+        """True velocity (2,) of the tip [m/s]."""
+        return self._driver.velocity
+
+    @property
+    def contact(self) -> bool:
+        """Whether the tip presses on the object."""
+        return self._world.contact
+
+    @property
+    def braking(self) -> bool:
+        """Whether the driver waits for commands, braking or at rest."""
+        return self._driver.braking
+
+    @property
+    def _substep(self) -> float:
+        return PERIOD / self._substeps
+
+    def _time(self, substep: int) -> float:
+        """Plant time [s] at a substep of the current period."""
+        elapsed = (self._ticks * self._substeps + substep) * self._substep
+        return round((self.START + elapsed) / _NANOSECOND) * _NANOSECOND
+
+    def _expose(self, substep: int) -> None:
+        self._sensor.expose(self._time(substep), self.object_pose, self.tip_position)
+
+    def _disturb_if_due(self) -> None:
+        due = self._schedule.due(self.time)
+        if due is not None:
+            self.perturb(due)
+
+
+def _whole_substeps(settings: SimSettings) -> int:
+    substeps = settings.sensor.latency / settings.world.substep
+    if not math.isclose(substeps, round(substeps), abs_tol=1e-6):
+        raise InputError(
+            f'parameter sensor.latency is {settings.sensor.latency:g}, '
+            f'must be a multiple of world.substep = {settings.world.substep:g} s'
+        )
+    return round(substeps)
+
+
+def _check_start(object_pose: Array, tip_position: Array, seed: int) -> None:
+    if np.shape(object_pose) != (3,) or np.shape(tip_position) != (2,):
+        raise InputError('a reset takes an object pose [x, y, theta] and a tip position [x, y]')
+    if not np.isfinite([*object_pose, *tip_position]).all():
+        raise InputError('a reset takes finite numbers')
+    if seed < 0:
+        raise InputError(f'parameter seed is {seed}, must not be negative')

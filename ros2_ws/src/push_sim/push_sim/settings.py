@@ -1,0 +1,122 @@
+"""Everything that can be said about the plant, and the profiles that bundle it.
+
+What the slider looks like is `push_core.slider.Slider`, which the controller knows as well. How it
+rubs on the table and on the tip belongs to the world: the controller has to learn or assume it.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+from push_core.actuator import ACTUATORS, ActuatorSettings
+from push_core.errors import InputError
+from push_core.settings import nested, setting, validate
+
+PERIOD = 0.01
+"""Time [s] from one exposure to the next; commands are answered as often."""
+
+
+@dataclass(frozen=True)
+class WorldSettings:
+    """The rigid bodies, their friction, and how finely time is cut."""
+
+    substep: float = setting(
+        0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
+    )
+    friction_ground: float = setting(0.35, 'friction of slider on table', low=0.01, high=2.0)
+    friction_pusher: float = setting(0.23, 'friction of slider on tip', low=0.0, high=2.0)
+    support_radius: float = setting(
+        0.0348, 'distance of the feet from the centre', unit='m', low=1e-3, high=0.5
+    )
+    feet: int = setting(4, 'number of feet on that circle', low=3, high=32)
+    stiffness: float = setting(1e5, 'stiffness of each foot', unit='N/m', low=1e3, high=1e7)
+    damping: float = setting(200.0, 'damping of each foot', unit='N s/m', low=0.0, high=1e5)
+    solver_iterations: int = setting(200, 'most iterations a step', low=10, high=10000)
+    solver_residual: float = setting(
+        1e-12, 'squared impulse error at which iterating ends', low=0.0, high=1e-3
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+        if not math.isclose(PERIOD / self.substep, self.substeps, rel_tol=1e-9):
+            raise InputError(
+                f'parameter world.substep is {self.substep:g}, must divide {PERIOD:g} s'
+            )
+
+    @property
+    def substeps(self) -> int:
+        """Time steps in a period."""
+        return round(PERIOD / self.substep)
+
+
+@dataclass(frozen=True)
+class SensorSettings:
+    """The cameras that see the slider."""
+
+    position_noise: float = setting(
+        0.05e-3, 'standard deviation of x and of y', unit='m', low=0.0, high=0.1
+    )
+    angle_noise: float = setting(
+        math.radians(0.008), 'standard deviation of theta', unit='rad', low=0.0, high=1.0
+    )
+    latency: float = setting(
+        0.005, 'time from exposure to publication', unit='s', low=0.0, high=0.5
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class PerturbationSettings:
+    """One disturbance that happens by itself."""
+
+    kind: str = setting(
+        'none', 'what happens', choices=('none', 'normal', 'tangential', 'impulse')
+    )
+    magnitude: float = setting(
+        0.0, 'size in m or N s; 0 takes 30 mm, 20 mm or 0.3 N s', low=-1.0, high=1.0
+    )
+    angle: float = setting(0.0, 'world direction of an impulse', unit='rad', low=-7.0, high=7.0)
+    time: float = setting(
+        0.0, 'when, after the first non-zero command; 0 is at reset', unit='s', low=0.0, high=1e4
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class SimSettings:
+    """The whole plant."""
+
+    world: WorldSettings = nested(WorldSettings())
+    actuator: ActuatorSettings = nested(ACTUATORS['irb120'])
+    sensor: SensorSettings = nested(SensorSettings())
+    perturbation: PerturbationSettings = nested(PerturbationSettings())
+    command_timeout: float = setting(
+        0.05, 'the driver brakes after this long without a command', unit='s', low=0.001, high=10.0
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+PROFILES = {
+    'irb120': SimSettings(),
+    'ideal': replace(
+        SimSettings(),
+        actuator=ACTUATORS['ideal'],
+        sensor=SensorSettings(position_noise=0.0, angle_noise=0.0, latency=0.0),
+    ),
+}
+
+
+def profile(name: str) -> SimSettings:
+    """The settings of a named profile.
+
+    Raises:
+        InputError: there is no such profile.
+    """
+    if name not in PROFILES:
+        raise InputError(f'parameter profile is {name!r}, must be one of {", ".join(PROFILES)}')
+    return PROFILES[name]

@@ -1,0 +1,38 @@
+"""What the plant needs of a world: an object on a table, and a tip that moves as it is told."""
+
+from typing import Protocol
+
+from push_core.frames import Array
+
+
+class World(Protocol):
+    """Rigid bodies in the plane; PyBullet or anything else that can step."""
+
+    def reset(self, object_pose: Array, tip_position: Array) -> None:
+        """Puts all at rest; what happened before leaves no trace, to the last bit.
+
+        Args:
+            object_pose: (3,) x [m], y [m], theta [rad].
+            tip_position: (2,) centre of the tip [m].
+        """
+
+    def advance(self, tip_velocity: Array, substeps: int) -> None:
+        """Moves on by some time steps while the tip keeps a velocity (2,) [m/s]."""
+
+    def place_object(self, object_pose: Array) -> None:
+        """Lifts the object and puts it down at rest at a pose (3,)."""
+
+    def push_object(self, impulse: Array) -> None:
+        """Gives the object an impulse (2,) [N s] at its centre in the next time step."""
+
+    @property
+    def object_pose(self) -> Array:
+        """Pose (3,) of the object: x [m], y [m], theta [rad] in [-pi, pi]."""
+
+    @property
+    def tip_position(self) -> Array:
+        """Centre (2,) of the tip [m]."""
+
+    @property
+    def contact(self) -> bool:
+        """Whether the tip pressed on the object in the last time step."""
