@@ -18,7 +18,7 @@ def squared_differences(inputs: Array) -> Array:
 
 def correlation(differences: Array, lengthscales: tuple[float, float]) -> Array:
     """(n, n) kernel of unit signal for `squared_differences` (2, n, n)."""
-    exponent = differences[0] * (-1.0 / lengthscales[0] ** 2)
+    exponent: Array = differences[0] * (-1.0 / lengthscales[0] ** 2)
     exponent -= differences[1] * (1.0 / lengthscales[1] ** 2)
     np.exp(exponent, out=exponent)
     return exponent

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from push_core.accuracy import OUTPUTS
 from push_core.push_set import PushSet
 
 from push_gp.analytical_model import AnalyticalModel
@@ -9,7 +10,6 @@ from push_gp.fit import fit
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel, residuals
 from push_gp.mean_function import MeanFunction, ZeroMean
-from push_gp.model import OUTPUTS
 from push_gp.prior import CONE_MEAN, ZERO_MEAN, priors
 
 

@@ -5,8 +5,6 @@ from typing import Protocol
 
 from push_core.frames import Array
 
-OUTPUTS = ('dx', 'dy', 'dtheta')
-
 
 @dataclass(frozen=True)
 class ModelInfo:

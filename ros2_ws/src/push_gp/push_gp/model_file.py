@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from push_core.accuracy import OUTPUTS
 from push_core.errors import InputError
 from push_core.frames import Array
 from push_core.push_set import PushSet
@@ -14,7 +15,6 @@ from push_gp.analytical_model import AnalyticalModel
 from push_gp.gp_model import GpModel
 from push_gp.hyperparameters import Hyperparameters
 from push_gp.mean_function import MeanFunction, ZeroMean
-from push_gp.model import OUTPUTS
 from push_gp.sealed_archive import read_sealed, write_sealed
 
 FORMAT = 'push_gp model'

@@ -3,15 +3,10 @@
 import math
 from collections.abc import Iterator
 
-import numpy as np
+from push_core.accuracy import OUTPUTS, READABLE, accuracy
 from push_core.push_set import PushSet
 
 from push_gp.gp_model import GpModel
-from push_gp.metrics import accuracy
-from push_gp.model import OUTPUTS
-
-READABLE = np.array([1e-3, 1e-3, math.radians(1.0)])
-"""mm, mm and degrees in [m, m, rad]."""
 
 UNITS = ('mm', 'mm', 'deg')
 
@@ -36,13 +31,13 @@ def _hyperparameters(model: GpModel) -> Iterator[str]:
         across, around = its.lengthscales[0] * 1e3, math.degrees(its.lengthscales[1])
         signal, noise = its.signal_std / scale, its.noise_std / scale
         yield (
-            f'{name:8}{across:9.1f} mm{around:10.1f} deg'
-            f'{signal:9.3f} {unit:3}{noise:9.3f} {unit:3}'
+            f'{name:8}{across:9.1f} mm{around:10.1f} deg{signal:9.3f} {unit:3}{noise:9.3f} {unit}'
         )
 
 
 def _errors(model: GpModel, rest: PushSet) -> str:
-    told = accuracy(model, rest)
+    predicted, _ = model.evaluate(rest.p_y, rest.beta)
+    told = accuracy(predicted, rest)
     dx, dy, dtheta = told.rmse / READABLE
     return (
         f'on the other {told.n} pushes: rmse {dx:.3f} mm, {dy:.3f} mm, {dtheta:.3f} deg; '

@@ -1,0 +1,36 @@
+"""How honest a model's variances are: likelihood of measured pushes, coverage of its intervals."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.accuracy import READABLE
+from push_core.frames import Array
+from push_core.push_set import PushSet
+
+from push_gp.gp_model import GpModel
+
+TWO_SIDED_95 = 1.959963984540054
+"""Standard deviations on each side of the mean that hold 95 % of a normal distribution."""
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Of a model's distribution of a measurement.
+
+    Attributes:
+        nlpd: (3,) mean negative log predictive density [nat], outputs in [mm, mm, deg].
+        coverage_95: (3,) share of measurements within the 95 % interval.
+    """
+
+    nlpd: Array
+    coverage_95: Array
+
+
+def calibration(model: GpModel, pushes: PushSet) -> Calibration:
+    """Compares the model's distribution of a measurement with measured pushes."""
+    predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
+    variance = model.variance(pushes.p_y, pushes.beta) + model.noise_variance
+    squared = (predicted - pushes.displacement) ** 2 / variance
+    density = 0.5 * (squared + np.log(2.0 * math.pi * variance / READABLE**2))
+    return Calibration(density.mean(axis=0), np.mean(squared <= TWO_SIDED_95**2, axis=0))

@@ -1,0 +1,30 @@
+"""Parameters of the model server."""
+
+from dataclasses import dataclass
+
+from push_core.settings import nested, setting, validate
+from push_core.slider import Slider
+
+from push_gp.analytical_model import NOMINAL_DISTANCE
+from push_gp.model_source import ANALYTICAL
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """What the server answers with."""
+
+    model: str = setting(ANALYTICAL, "path of a model file, or 'analytical' for the motion cone")
+    max_points: int = setting(
+        5000, 'training pushes that add_pushes may grow the model to', low=1, high=20_000
+    )
+    distance: float = setting(
+        NOMINAL_DISTANCE,
+        'travel of the pusher that one answer of the analytical model covers',
+        unit='m',
+        low=1e-4,
+        high=0.1,
+    )
+    slider: Slider = nested(Slider())
+
+    def __post_init__(self) -> None:
+        validate(self)
