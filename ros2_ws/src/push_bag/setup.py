@@ -17,7 +17,7 @@ setup(
     entry_points={
         'console_scripts': [
             'recorder = push_bag.recorder:main',
-            'score = push_bag.score:main',
+            'score = push_bag.score_command:main',
             'info = push_bag.info:main',
             'replay = push_bag.replay:main',
         ],

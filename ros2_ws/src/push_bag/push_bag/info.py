@@ -1,0 +1,73 @@
+"""`push_bag info RUN`: what lies in a bag."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from push_core.command_line import Parser, run_command
+
+from push_bag.reader import BagReader
+from push_bag.traffic import Traffic, lost_text
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Says what lies in a bag."""
+    return run_command(_parser(), _work, argv)
+
+
+def bag_text(reader: BagReader) -> str:
+    """Topics, types, counts, rates, losses, duration and facts of a bag, as lines.
+
+    Raises:
+        InputError: the bag is not readable.
+    """
+    traffic: dict[str, Traffic] = {}
+    for record in reader.records():
+        traffic.setdefault(record.topic.name, Traffic()).saw(record.sequence, record.log_ns)
+    lines = [f'{reader.path}: {_duration(traffic):.2f} s, {_ending(reader)}', '']
+    lines += _topic_lines(reader, traffic)
+    lines += ['', lost_text(traffic), '']
+    lines += [f'{name}: {value}' for name, value in sorted(reader.facts.items())]
+    lines += [f'attached: {name}, {len(data)} B' for name, data in reader.attachments.items()]
+    return '\n'.join(lines) + '\n'
+
+
+def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
+    rows = [('topic', 'type', 'received', 'lost', 'rate [1/s]')]
+    for name, topic in sorted(reader.topics.items()):
+        seen = traffic.get(name, Traffic())
+        lost = str(seen.lost) if seen.numbered else '?'
+        rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}'))
+    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
+    return [_aligned(row, widths) for row in rows]
+
+
+def _aligned(row: tuple[str, ...], widths: list[int]) -> str:
+    texts = [f'{cell:<{width}}' for cell, width in zip(row[:2], widths[:2], strict=True)]
+    numbers = [f'{cell:>{width}}' for cell, width in zip(row[2:], widths[2:], strict=True)]
+    return '  '.join(texts + numbers)
+
+
+def _duration(traffic: dict[str, Traffic]) -> float:
+    seen = traffic.values()
+    first = min((each.first_ns for each in seen), default=0)
+    return (max((each.last_ns for each in seen), default=0) - first) * 1e-9
+
+
+def _ending(reader: BagReader) -> str:
+    return 'finished' if reader.finished else 'unfinished: the recording was cut short'
+
+
+def _parser() -> Parser:
+    parser = Parser('Says what lies in a bag: topics, counts, rates, losses and facts.')
+    parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    sys.stdout.write(bag_text(BagReader(arguments.run)))
+
+
+if __name__ == '__main__':
+    sys.exit(main())

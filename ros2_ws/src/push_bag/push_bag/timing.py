@@ -1,0 +1,51 @@
+"""How long the loop took.
+
+pose to command = publish time of a command - publish time of the pose that carries its stamp;
+a deadline miss is a pose in TRACKING whose command came more than DEADLINE later, or never.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from push_msgs.msg import ControllerState
+
+from push_bag.series import Floats, RunSeries
+from push_bag.tracking import during_tracking
+
+DEADLINE = 0.010  # [s]
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Times of the ticks in TRACKING [ms].
+
+    Attributes:
+        solve: (n,) of the quadratic program.
+        tick: (n,) pose received to command published, by the controller's clock.
+        pose_to_command: (m,) over the middleware, of the poses that were answered.
+        deadline_misses: poses answered too late or never.
+    """
+
+    solve: Floats
+    tick: Floats
+    pose_to_command: Floats
+    deadline_misses: int
+
+
+def timing(run: RunSeries) -> Timing:
+    """The times of a run."""
+    ticks = run.state('mode') == ControllerState.TRACKING
+    latency, unanswered = _answers(run)
+    late = int(np.count_nonzero(latency > DEADLINE * 1e3))
+    return Timing(
+        run.state('solve_ms')[ticks], run.state('tick_ms')[ticks], latency, late + unanswered
+    )
+
+
+def _answers(run: RunSeries) -> tuple[Floats, int]:
+    """Latency (m,) [ms] of each answered pose in TRACKING, and how many had no answer."""
+    tracked = during_tracking(run, run.object.stamp)
+    index, answered = run.commands.at(run.object.stamp[tracked])
+    sent = run.object.published[tracked][answered]
+    latency: Floats = (run.commands.published[index[answered]] - sent).astype(np.float64) * 1e-6
+    return latency, int(np.count_nonzero(~answered))

@@ -1,0 +1,175 @@
+"""Synthetic runs with known errors, recorded as real ones are."""
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pytest
+from push_bag.bag_writer import BagWriter
+from push_bag.cell_topics import CELL_TOPICS
+from push_bag.message_types import message_class
+from push_bag.qos_text import qos_text
+from push_msgs.msg import ControllerState
+from rclpy.serialization import serialize_message
+
+SIDE, TIP = 0.09, 0.00475
+PERIOD_NS = 10_000_000
+STAMP_0 = 1_000_000_000_000
+WALL_0 = 1_700_000_000_000_000_000
+ARMED_TICKS = 20
+LEAD_TICKS = 11  # in TRACKING before the reference starts
+DONE_TICKS = 10
+CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name == 'perturbation'}
+
+
+def on_circle(time):
+    """A lap round a circle of 150 mm at 80 mm/s: pose (3,) at a time [s]."""
+    turn = 0.08 / 0.15 * time
+    return np.array([0.15 * math.sin(turn), 0.15 * (1.0 - math.cos(turn)), turn])
+
+
+def on_line(time):
+    """A straight line along x at 80 mm/s."""
+    return np.array([0.08 * time, 0.0, 0.0])
+
+
+@dataclass
+class Synthetic:
+    """How a synthetic run differs from a perfect one."""
+
+    path: object = on_circle
+    duration: float = 2.0
+    displaced: object = lambda pose, time: pose
+    gap: object = lambda time: 0.0
+    command_delay_ns: object = lambda tick: 1_500_000
+    unanswered: tuple = ()
+    missing: dict = field(default_factory=dict)  # topic -> ticks never received
+    numbered: bool = True
+    limited: object = lambda tick: 0
+    modes: object = None
+    perturbed_at: float | None = None
+
+    def __post_init__(self):
+        self.reference_ticks = round(self.duration * 100)
+        self.ticks = ARMED_TICKS + LEAD_TICKS + self.reference_ticks + DONE_TICKS
+
+    def mode(self, tick):
+        if self.modes is not None:
+            return self.modes(tick)
+        if tick < ARMED_TICKS:
+            return ControllerState.ARMED
+        last = ARMED_TICKS + LEAD_TICKS + self.reference_ticks
+        return ControllerState.TRACKING if tick <= last else ControllerState.DONE
+
+    def reference_time(self, tick):
+        return (tick - ARMED_TICKS - LEAD_TICKS) / 100
+
+
+class Recorder:
+    """Writes the messages of a synthetic run."""
+
+    def __init__(self, folder, synthetic):
+        facts = {'profile': 'irb120', 'seed': '7', 'mode': 'realtime'}
+        self.bag = BagWriter(folder, facts, {'params.yaml': b'a: 1\n'})
+        self.synthetic = synthetic
+        self.sequences = dict.fromkeys(CORE, 0)
+        for topic in CORE.values():
+            self.bag.add_topic(f'/{topic.name}', topic.type_name, qos_text(topic.qos))
+
+    def message(self, name, tick):
+        message = message_class(CORE[name].type_name)()
+        stamp = STAMP_0 + tick * PERIOD_NS
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+        message.header.frame_id = 'world'
+        return message
+
+    def write(self, name, tick, message, delay_ns=0):
+        self.sequences[name] += 1
+        if tick in self.synthetic.missing.get(name, ()):
+            return
+        sent = WALL_0 + tick * PERIOD_NS + delay_ns
+        number = self.sequences[name] if self.synthetic.numbered else 0
+        self.bag.write(f'/{name}', serialize_message(message), sent + 100_000, sent, number)
+
+    def record(self):
+        with self.bag:
+            self.write('nominal_trajectory', 0, self.reference())
+            self.write('model_info', 0, self.model())
+            for tick in range(self.synthetic.ticks):
+                self.record_tick(tick)
+
+    def record_tick(self, tick):
+        synthetic = self.synthetic
+        time = synthetic.reference_time(tick)
+        inside = min(max(time, 0.0), synthetic.duration)
+        pose = synthetic.displaced(synthetic.path(inside), inside)
+        self.write('object_pose', tick, self.posed(tick, 'object_pose', pose))
+        self.write('pusher_pose', tick, self.posed(tick, 'pusher_pose', self.tip(pose, time)))
+        if tick not in synthetic.unanswered:
+            delay = synthetic.command_delay_ns(tick)
+            self.write(
+                'pusher_velocity_cmd', tick, self.message('pusher_velocity_cmd', tick), delay
+            )
+        self.write('controller_state', tick, self.state(tick, time), 2_000_000)
+        if synthetic.perturbed_at is not None and abs(time - synthetic.perturbed_at) < 1e-6:
+            kick = self.message('perturbation', tick)
+            kick.magnitude = 0.03
+            self.write('perturbation', tick, kick)
+
+    def posed(self, tick, name, pose):
+        message = self.message(name, tick)
+        message.pose.position.x, message.pose.position.y = float(pose[0]), float(pose[1])
+        message.pose.orientation.z = math.sin(pose[2] / 2)
+        message.pose.orientation.w = math.cos(pose[2] / 2)
+        return message
+
+    def tip(self, pose, time):
+        x = -SIDE / 2 - TIP - self.synthetic.gap(time)
+        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        return np.array([pose[0] + cos * x, pose[1] + sin * x, 0.0])
+
+    def state(self, tick, time):
+        state = self.message('controller_state', tick)
+        state.tick, state.mode, state.reference_time = tick, self.synthetic.mode(tick), time
+        state.input = state.nominal_input = [0.08, 0.0]
+        state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
+        state.solver_status, state.limited = 1, self.synthetic.limited(tick)
+        return state
+
+    def reference(self):
+        plan = self.message('nominal_trajectory', 0)
+        plan.track, plan.controller, plan.speed = 'eight', 'gp', 0.08
+        plan.side, plan.tip_radius, plan.laps = SIDE, TIP, 1
+        times = np.arange(self.synthetic.reference_ticks + 1) / 100
+        poses = np.array([self.synthetic.path(time) for time in times])
+        plan.time, plan.x, plan.y, plan.theta = times, *(column.copy() for column in poses.T)
+        plan.p_y = plan.v_t = np.zeros(times.size)
+        plan.v_n = np.full(times.size, 0.08)
+        return plan
+
+    def model(self):
+        info = self.message('model_info', 0)
+        info.points, info.model_hash, info.kind = 200, 'abc123' * 8, 'gp'
+        return info
+
+
+@pytest.fixture
+def record(tmp_path):
+    """Records a synthetic run: `record(duration=2.0, …)` gives its folder."""
+    count = 0
+
+    def record_run(**changes) -> Path:
+        nonlocal count
+        count += 1
+        folder = tmp_path / f'run_{count}'
+        Recorder(folder, Synthetic(**changes)).record()
+        return folder
+
+    return record_run
+
+
+@pytest.fixture
+def paths():
+    """The reference paths that a synthetic run can follow."""
+    return {'line': on_line, 'circle': on_circle}

@@ -1,0 +1,166 @@
+"""Bags with known errors score exactly those errors."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from push_bag.score import score_json, score_run, write_score
+from push_bag.score_command import main
+from push_core.errors import InputError
+from push_msgs.msg import ControllerState
+
+
+def circling(pose, time):
+    """3 mm beside the reference, going round it."""
+    return pose + np.array([0.003 * math.cos(5 * time), 0.003 * math.sin(5 * time), 0.0])
+
+
+def test_a_perfect_run_scores_zero_and_is_completed(record):
+    score = score_run(record())
+    assert score['completed'] is True
+    assert score['tracking_error_mm'] == pytest.approx(
+        dict.fromkeys(('mean', 'rms', 'p95', 'max', 'mean_after_start'), 0.0), abs=1e-9
+    )
+    assert score['duration_s'] == pytest.approx(2.0)
+    assert score['contact_losses'] == 0
+    assert score['deadline_misses'] == 0
+
+
+def test_a_circle_of_3_mm_about_the_reference_scores_3_mm(record):
+    score = score_run(record(displaced=circling))
+    figures = score['tracking_error_mm']
+    assert figures == pytest.approx(dict.fromkeys(figures, 3.0), abs=1e-9)
+    assert 2.9 < score['cross_track_mm']['max'] <= 3.0 + 1e-9
+
+
+def test_a_lag_of_50_ms_scores_4_mm_along_the_path_and_none_across(record, paths):
+    lagging = record(path=paths['line'], displaced=lambda _, time: paths['line'](time - 0.05))
+    score = score_run(lagging)
+    assert score['tracking_error_mm']['mean'] == pytest.approx(0.05 * 80.0, abs=1e-9)
+    # before 50 ms the object lies behind the start of the path, which is its nearest point
+    assert score['cross_track_mm']['rms'] == pytest.approx(0.0, abs=0.3)
+
+
+def test_an_offset_to_the_left_is_a_positive_cross_track_error(record, paths):
+    def left(pose, _time):
+        return pose + np.array([0.0, 0.002, 0.0])
+
+    figures = score_run(record(path=paths['line'], displaced=left))['cross_track_mm']
+    assert figures == pytest.approx({'mean': 2.0, 'rms': 2.0, 'max': 2.0})
+
+
+def test_cross_track_on_a_curve_is_the_distance_from_the_arc(record):
+    def outwards(pose, _time):
+        return pose + 0.005 * np.array([math.sin(pose[2]), -math.cos(pose[2]), 0.0])
+
+    figures = score_run(record(displaced=outwards))['cross_track_mm']
+    # the polyline of 0.8 mm chords lies up to 0.5 um inside the arc
+    assert figures['mean'] == pytest.approx(-5.0, abs=1e-3)
+
+
+def test_a_turned_object_scores_its_heading_error(record):
+    def turned(pose, _time):
+        return pose + np.array([0.0, 0.0, math.radians(-4.0)])
+
+    figures = score_run(record(displaced=turned))['heading_error_deg']
+    assert figures == pytest.approx({'mean': 4.0, 'rms': 4.0, 'max': 4.0})
+
+
+def test_the_start_is_left_out_of_mean_after_start(record, paths):
+    def late(pose, time):
+        return pose + np.array([0.0, 0.010 if time <= 0.2 else 0.001, 0.0])
+
+    figures = score_run(record(path=paths['line'], displaced=late))['tracking_error_mm']
+    assert figures['mean_after_start'] == pytest.approx(1.0)
+    assert figures['mean'] == pytest.approx((20 * 10.0 + 180 * 1.0) / 200)
+
+
+def test_seven_missing_messages_are_seven_lost(record):
+    missing = {'object_pose': {40, 41, 90}, 'controller_state': {60, 61, 62, 200}}
+    messages = score_run(record(missing=missing))['messages']
+    assert messages['/object_pose']['lost'] == 3
+    assert messages['/controller_state']['lost'] == 4
+    assert sum(counts['lost'] for counts in messages.values()) == 7
+
+
+def test_without_sequence_numbers_the_stamps_tell_what_was_lost(record):
+    messages = score_run(record(missing={'object_pose': {40, 41, 90}}, numbered=False))['messages']
+    assert messages['/object_pose']['lost'] == 3
+    assert messages['/pusher_pose']['lost'] == 0
+    assert messages['/model_info']['lost'] is None
+
+
+def test_late_and_missing_commands_are_deadline_misses(record):
+    run = record(
+        command_delay_ns=lambda tick: 12_000_000 if tick in (100, 101) else 1_500_000,
+        unanswered=(150, 151, 152),
+    )
+    score = score_run(run)
+    assert score['deadline_misses'] == 5
+    assert score['pose_to_command_ms']['max'] == pytest.approx(12.0)
+    assert score['pose_to_command_ms']['p50'] == pytest.approx(1.5)
+
+
+def test_intervals_without_contact_are_counted_once_each(record):
+    def gap(time):
+        return 0.002 if 1.0 <= time <= 1.3 or 1.5 <= time <= 1.51 else 0.0
+
+    assert score_run(record(gap=gap))['contact_losses'] == 2
+
+
+def test_limits_are_counted_by_name(record):
+    bits = ControllerState.LIMITED_SPEED | ControllerState.LIMITED_ACCELERATION
+    score = score_run(record(limited=lambda tick: bits if 100 <= tick < 103 else 0))
+    assert score['limited'] == {'not_finite': 0, 'speed': 3, 'acceleration': 3, 'workspace': 0}
+
+
+@pytest.mark.parametrize(
+    'spoiled',
+    [
+        {'gap': lambda _time: 0.0015},
+        {'displaced': lambda pose, _time: pose + np.array([0.051, 0.0, 0.0])},
+        {'modes': lambda tick: 2 if 20 <= tick < 200 else 4},
+        {'modes': lambda tick: 2},
+    ],
+    ids=['off the face', 'far from the end', 'stopped', 'never done'],
+)
+def test_a_run_that_does_not_end_well_is_not_completed(record, spoiled):
+    assert score_run(record(**spoiled))['completed'] is False
+
+
+def test_a_run_that_never_tracked_has_nulls_and_no_nan(record):
+    score = score_run(record(modes=lambda _tick: ControllerState.ARMED))
+    assert score['tracking_error_mm']['mean'] is None
+    assert score['solve_ms']['p99'] is None
+    assert 'NaN' not in score_json(score)
+
+
+def test_facts_and_reference_name_the_run(record):
+    score = score_run(record())
+    assert (score['profile'], score['seed'], score['mode']) == ('irb120', 7, 'realtime')
+    assert (score['track'], score['controller'], score['laps']) == ('eight', 'gp', 1)
+    assert score['model'] == {'points': 200, 'hash': 'abc123' * 8, 'kind': 'gp'}
+
+
+def test_write_score_puts_the_same_json_into_the_folder(record):
+    folder = record()
+    assert json.loads((write_score(folder), folder / 'score.json')[1].read_text()) == score_run(
+        folder
+    )
+
+
+def test_score_prints_one_json_object_or_a_table(record, capsys):
+    folder = record(missing={'object_pose': {50}})
+    assert main([str(folder), '--json']) == 0
+    assert json.loads(capsys.readouterr().out)['completed'] is True
+    assert main([str(folder)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split() == ['completed', 'yes']
+    assert lines[-1].startswith('1 of ')
+    assert lines[-1].endswith('messages lost; /object_pose 1')
+
+
+def test_a_bag_without_a_reference_cannot_be_scored(record):
+    with pytest.raises(InputError, match='no nominal trajectory'):
+        score_run(record(missing={'nominal_trajectory': {0}}))
