@@ -3,7 +3,7 @@
 For every recorded pose in TRACKING the controller states give the reference time of its exposure:
     tracking error = |position(t) - reference position(reference time)|, the paper's metric;
     cross-track error = signed distance to the nearest point of the reference path near that time,
-        positive to the left of the path;
+        positive to the left of the path, whose ends go on straight;
     heading error = heading(t) - reference heading(reference time), wrapped.
 Poses count where 0 < reference time <= the reference's duration.
 """
@@ -118,7 +118,10 @@ def _distance_to_segments(path: Floats, segment: NDArray[np.intp], points: Float
     along = path[segment + 1] - start
     offset = points - start
     length_2 = np.maximum(np.sum(along**2, axis=1), 1e-30)
-    share = np.clip(np.sum(offset * along, axis=1) / length_2, 0.0, 1.0)
+    # the ends go on straight, so that to be early or late there is no error across
+    low = np.where(segment == 0, -np.inf, 0.0)
+    high = np.where(segment == len(path) - 2, np.inf, 1.0)
+    share = np.clip(np.sum(offset * along, axis=1) / length_2, low, high)
     away = offset - share[:, None] * along
     left = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
     signed: Floats = np.where(left >= 0.0, 1.0, -1.0) * np.hypot(away[:, 0], away[:, 1])
