@@ -1,12 +1,12 @@
 """Planar frames: a pose is [x m, y m, theta rad] of the body frame in the world frame."""
 
 import math
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array: TypeAlias = NDArray[np.float64]
+Array: TypeAlias = NDArray[Any]
 
 
 def wrap_angle(angle: float) -> float:

@@ -1,1 +1,1 @@
-"""The controllers: nominal plan, tabulated model, delay predictor and the quadratic program solved every 10 ms."""
+"""The controllers: nominal plan, tabulated model, delay predictor, tracking quadratic program."""

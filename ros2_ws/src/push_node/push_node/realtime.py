@@ -2,6 +2,7 @@
 
 import gc
 import os
+from pathlib import Path
 
 _PRIORITY = 20
 
@@ -16,7 +17,8 @@ def settle() -> str:
     gc.freeze()
     gc.disable()
     try:
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(_PRIORITY))
+        for thread in Path('/proc/self/task').iterdir():
+            os.sched_setscheduler(int(thread.name), os.SCHED_FIFO, os.sched_param(_PRIORITY))
     except (OSError, AttributeError):
         return 'ordinary scheduling: a real-time priority is not permitted here'
     return f'real-time scheduling, SCHED_FIFO {_PRIORITY}'

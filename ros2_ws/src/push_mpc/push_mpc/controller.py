@@ -1,0 +1,230 @@
+"""The controller as one object: poses in, tip velocities out, no ROS and no clock of its own."""
+
+import math
+import time as clock
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from push_core.frames import Array, rotation, wrap_angle
+from push_core.safety import limit
+from push_core.slider import Slider
+
+from push_mpc.nominal import Plan
+from push_mpc.predictor import Predictor
+from push_mpc.preview import Preview
+from push_mpc.settings import ControllerSettings
+from push_mpc.surrogate import Table
+from push_mpc.tracking_qp import TrackingQP
+
+_STILL = np.zeros(2)
+
+
+class Mode(IntEnum):
+    """What the controller is doing; the numbers are those of push_msgs/ControllerState."""
+
+    IDLE = 0
+    ARMED = 1
+    TRACKING = 2
+    DONE = 3
+    STOPPED = 4
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the controller knows of the object's motion: table, linearisation, name."""
+
+    table: Table
+    preview: Preview
+    model_id: str
+
+
+@dataclass
+class Tick:
+    """What one tick saw, planned and did; see push_msgs/ControllerState for the fields."""
+
+    mode: Mode
+    velocity: Array
+    reference_time: float = -math.inf
+    state: Array | None = None
+    predicted: Array | None = None
+    reference: Array | None = None
+    gap: float = 0.0
+    input: Array | None = None
+    nominal_input: Array | None = None
+    solve_ms: float = 0.0
+    iterations: int = 0
+    solver_status: int = 0
+    limited: int = 0
+
+
+class Controller:
+    """Model-predictive tracking of a plan with a tabulated model."""
+
+    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
+        self.settings = settings
+        self.plan = plan
+        self.mode = Mode.IDLE
+        self.stop_reason = ''
+        self._slider = slider
+        self._predictor = Predictor(settings.actuator, slider)
+        weights = settings.weights
+        self._qp = TrackingQP(
+            settings.horizon_steps,
+            np.array([weights.position, weights.position, weights.heading, weights.contact]),
+            np.array([weights.normal, weights.tangential]),
+        )
+        self._model: Model | None = None
+        self._sent = _STILL
+        self._seen = 0
+        self._start = 0.0
+
+    @property
+    def model_id(self) -> str:
+        """Name of the model in use, empty without one."""
+        return self._model.model_id if self._model else ''
+
+    def prepared(self, table: Table, model_id: str) -> Model:
+        """A model linearised along the plan; may run in another thread."""
+        stride = horizon_stride(self.plan, self.settings)
+        preview = Preview.of(self.plan, table, self._slider.tip_x, stride)
+        return Model(table, preview, model_id)
+
+    def use(self, model: Model) -> None:
+        """Takes a prepared model from the next tick on, and warms the solver up."""
+        first = self._model is None
+        self._model = model
+        if first:
+            self._solve(self.plan.state[0], 0.0)
+
+    def arm(self) -> None:
+        """Makes ready: holds the tip at rest until enough poses came, then tracks the plan."""
+        self.mode = Mode.ARMED
+        self.stop_reason = ''
+        self._seen = 0
+        self._sent = _STILL
+        self._predictor.reset()
+
+    def stop(self, reason: str) -> None:
+        """Stops and stays stopped until resumed."""
+        self.mode = Mode.STOPPED
+        self.stop_reason = reason
+
+    def resume(self) -> None:
+        """Releases a stop."""
+        if self.mode == Mode.STOPPED:
+            self.mode = Mode.IDLE
+            self.stop_reason = ''
+
+    def step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
+        """One tick.
+
+        Args:
+            object_pose: measured pose (3,), world frame.
+            tip: measured tip position (2,) [m], world frame.
+            exposure: when both were measured [s].
+            now: when the command will be sent [s].
+
+        Returns:
+            What to send and what there is to say about it.
+        """
+        if not (np.isfinite(object_pose).all() and np.isfinite(tip).all()):
+            self.stop('a pose is not finite')
+        if self.mode == Mode.ARMED:
+            self._count_poses(now)
+        tick = self._follow(object_pose, tip, exposure, now)
+        if self.mode != Mode.TRACKING:
+            tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
+        self._sent = tick.velocity
+        self._predictor.sent(tick.velocity, now)
+        return tick
+
+    def _count_poses(self, now: float) -> None:
+        self._seen += 1
+        if self._seen > self.settings.good_poses:
+            self.mode = Mode.TRACKING
+            self._start = now + self._predictor.horizon
+
+    def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
+        """Reference, prediction and plan of a tick that may move the tip."""
+        if self.mode != Mode.TRACKING or self._model is None:
+            return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
+        reference_time = exposure - self._start
+        if reference_time >= self.plan.duration:
+            self.mode = Mode.DONE
+        pose, tip_then, acts_at = object_pose, tip, exposure
+        if self.settings.delay_compensation:
+            acts_at = now + self._predictor.horizon
+            pose, tip_then = self._predictor.predict(
+                self._model.table, object_pose, tip, exposure, acts_at
+            )
+        predicted = self._state(pose, tip_then)
+        started = clock.perf_counter()
+        inputs, tick = self._solve(predicted, acts_at - self._start)
+        tick.solve_ms = 1e3 * (clock.perf_counter() - started)
+        tick.reference_time = reference_time
+        tick.state = self._state(object_pose, tip)
+        tick.gap = self._slider.gap(object_pose, tip)
+        self._limit(tick, inputs, predicted[2], tip)
+        return tick
+
+    def _state(self, object_pose: Array, tip: Array) -> Array:
+        return np.array([*object_pose, self._slider.contact_offset(object_pose, tip)])
+
+    def _solve(self, state: Array, reference_time: float) -> tuple[Array, Tick]:
+        """Input (2,) [m/s] for a state (4,) at a time of the reference."""
+        model, plan = self._model, self.plan
+        assert model is not None
+        reference, nominal = plan.at(reference_time)
+        deviation = state - reference
+        deviation[2] = wrap_angle(deviation[2])
+        window = model.preview.window(
+            round(max(reference_time, 0.0) / plan.period), self.settings.horizon_steps
+        )
+        self._qp.update(
+            model.preview.transition[window],
+            model.preview.effect[window],
+            model.preview.drift[window],
+            deviation,
+            self._contact_bounds(model.preview.contact[window], state[3]),
+            self._input_bounds(model.preview.input[window]),
+        )
+        solution = self._qp.solve()
+        if not solution.usable:
+            self.stop(f'the solver found no input (status {solution.status})')
+        tick = Tick(
+            self.mode,
+            _STILL,
+            predicted=state,
+            reference=reference,
+            nominal_input=nominal,
+            iterations=solution.iterations,
+            solver_status=solution.status,
+        )
+        return nominal + solution.inputs[0], tick
+
+    def _contact_bounds(self, nominal: Array, p_y: float) -> tuple[Array, Array]:
+        """Bounds of p_y, opened to where the tip is when it is already off the face."""
+        half = max(0.5 * self._slider.side, abs(p_y))
+        return -half - nominal, half - nominal
+
+    def _input_bounds(self, nominal: Array) -> tuple[Array, Array]:
+        low = np.array([0.0, -self.settings.tangential_speed_limit])
+        high = np.array([self.settings.normal_speed_limit, self.settings.tangential_speed_limit])
+        return low - nominal, high - nominal
+
+    def _limit(self, tick: Tick, inputs: Array, heading: float, tip: Array) -> None:
+        """Turns the input into the command to send, within the safety limits."""
+        turn = rotation(heading)
+        wanted = turn @ inputs
+        tick.velocity, tick.limited = limit(
+            wanted, self._sent, tip, self.settings.limits, self.settings.period
+        )
+        tick.input = turn.T @ tick.velocity
+
+
+def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
+    """Samples of the plan in one horizon step, so that the horizon spans its length of path."""
+    speed = math.hypot(*np.diff(plan.state[:2, :2], axis=0)[0]) / plan.period
+    step = settings.horizon_length / settings.horizon_steps / speed
+    return max(1, round(step / plan.period))

@@ -1,0 +1,98 @@
+"""Motion of slider and contact, and its linearisation, for any model of [p_y, beta].
+
+State [x, y, theta, p_y], input [v_n, v_t] in the body frame (Bauza et al. 2018, section 4). The
+contact offset is that of the tip's centre: d(p_y)/dt = v_t - (t_y + omega * tip_x), which is the
+paper's [v_p - J t] for a point and holds for a round tip as well.
+"""
+
+from typing import Protocol
+
+import numpy as np
+from push_core.frames import Array
+
+
+class TravelModel(Protocol):
+    """Displacement rates of the object per metre of pusher travel."""
+
+    def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
+        """Rates (n, 3) [1, 1, rad/m] in the body frame and Jacobian (n, 3, 2) by [p_y, beta]."""
+
+
+def rates(model: TravelModel, state: Array, inputs: Array, tip_x: float) -> Array:
+    """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
+    twist = _twist(model, state, inputs)[0]
+    cos, sin = np.cos(state[:, 2]), np.sin(state[:, 2])
+    return np.stack(
+        [
+            cos * twist[:, 0] - sin * twist[:, 1],
+            sin * twist[:, 0] + cos * twist[:, 1],
+            twist[:, 2],
+            inputs[:, 1] - twist[:, 1] - tip_x * twist[:, 2],
+        ],
+        axis=-1,
+    )
+
+
+def linearised(
+    model: TravelModel, state: Array, inputs: Array, tip_x: float
+) -> tuple[Array, Array]:
+    """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 2)."""
+    twist, by_contact, by_input = _twist(model, state, inputs)
+    cos, sin = np.cos(state[:, 2]), np.sin(state[:, 2])
+    by_state = np.zeros((len(state), 4, 4))
+    by_state[:, 0, 2] = -sin * twist[:, 0] - cos * twist[:, 1]
+    by_state[:, 1, 2] = cos * twist[:, 0] - sin * twist[:, 1]
+    by_state[:, :, 3] = _to_rates(by_contact, cos, sin, tip_x)
+    by_inputs = np.stack(
+        [_to_rates(by_input[:, :, column], cos, sin, tip_x) for column in range(2)], axis=-1
+    )
+    by_inputs[:, 3, 1] += 1.0
+    return by_state, by_inputs
+
+
+def discretised(
+    by_state: Array, by_inputs: Array, stride: int, period: float
+) -> tuple[Array, Array]:
+    """Transition matrices over `stride` samples of `period` [s], from each sample onwards.
+
+    Products of the first-order transitions of the samples in between; the last sample is held.
+
+    Returns:
+        A (n, 4, 4) and B (n, 4, 2) with x_{i+1} = A x_i + B u_i for a constant input.
+    """
+    count = len(by_state)
+    transition = np.tile(np.eye(4), (count, 1, 1))
+    effect = np.zeros((count, 4, 2))
+    for offset in range(stride):
+        index = np.minimum(np.arange(count) + offset, count - 1)
+        step = np.eye(4) + period * by_state[index]
+        effect = step @ effect + period * by_inputs[index]
+        transition = step @ transition
+    return transition, effect
+
+
+def _to_rates(twist: Array, cos: Array, sin: Array, tip_x: float) -> Array:
+    """Contribution (n, 4) of a body twist (n, 3) to the rates."""
+    return np.stack(
+        [
+            cos * twist[:, 0] - sin * twist[:, 1],
+            sin * twist[:, 0] + cos * twist[:, 1],
+            twist[:, 2],
+            -twist[:, 1] - tip_x * twist[:, 2],
+        ],
+        axis=-1,
+    )
+
+
+def _twist(model: TravelModel, state: Array, inputs: Array) -> tuple[Array, Array, Array]:
+    """Body twist (n, 3), its derivative by p_y (n, 3) and by the input (n, 3, 2)."""
+    v_n, v_t = inputs.T
+    speed = np.maximum(np.hypot(v_n, v_t), 1e-9)
+    rate, jacobian = model.evaluate(state[:, 3], np.arctan2(v_n, v_t))
+    speed_by_input = inputs / speed[:, None]
+    beta_by_input = np.stack([v_t, -v_n], axis=-1) / speed[:, None]
+    by_input = (
+        rate[:, :, None] * speed_by_input[:, None, :]
+        + jacobian[:, :, 1, None] * beta_by_input[:, None, :]
+    )
+    return speed[:, None] * rate, speed[:, None] * jacobian[:, :, 0], by_input

@@ -1,0 +1,188 @@
+"""The controller node: a pose in, a velocity out, every 10 ms."""
+
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from geometry_msgs.msg import TwistStamped
+from push_core.actuator import ACTUATORS
+from push_msgs.msg import ControllerState, NominalTrajectory
+from push_node import qos
+from push_node.diagnostics import Reporter
+from push_node.parameters import declared, override
+from push_node.realtime import settle
+from push_node.spin import run_node
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from push_mpc import conversions
+from push_mpc.controller import Controller, Mode, Tick
+from push_mpc.model_client import ModelClient
+from push_mpc.node_settings import MpcSettings
+from push_mpc.planning import planned
+from push_mpc.pose_pair import PosePair
+from push_mpc.recorder_watch import RecorderWatch
+
+WATCHDOG_PERIOD = 0.01  # [s]
+REPORT_PERIOD = 1.0  # [s]
+_MOVING = (Mode.ARMED, Mode.TRACKING)
+
+
+class MpcNode(Node):  # type: ignore[misc]
+    """Topics, services and timers around one `Controller`."""
+
+    def __init__(self) -> None:
+        super().__init__('mpc_node')
+        self._settings = declared(self, _defaults(override(self, 'profile', 'irb120')))
+        self._controller = Controller(
+            self._settings, self._settings.slider, planned(self._settings)
+        )
+        lockstep = self._settings.mode == 'lockstep'
+        self._poses = PosePair(self, lockstep, self._tick, self._repeat)
+        self._answered = 0
+        self._tick_count = 0
+        self._scheduling = ''
+        self._command, self._state = TwistStamped(), ControllerState()
+        self._command.header.frame_id = self._state.header.frame_id = 'world'
+        self._model = ModelClient(self, self._settings.slider.side, self._controller.prepared)
+        self._recorder = RecorderWatch(self)
+        self._reporter = Reporter(self, 'control')
+        self._commands = self.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
+        self._states = self.create_publisher(ControllerState, 'controller_state', qos.STATE)
+        self._announce_plan()
+        self._offer_services()
+        self._start_timers()
+
+    def destroy_node(self) -> None:
+        """Leaves the tip at rest."""
+        if self._controller.mode in _MOVING:
+            self._halt('the controller was shut down')
+        self._model.close()
+        super().destroy_node()
+
+    def _announce_plan(self) -> None:
+        self._nominal = self.create_publisher(NominalTrajectory, 'nominal_trajectory', qos.LATCHED)
+        plan = conversions.nominal_message(self._controller.plan, self._settings)
+        plan.header.stamp = self.get_clock().now().to_msg()
+        self._nominal.publish(plan)
+
+    def _offer_services(self) -> None:
+        self.create_service(Trigger, 'push_mpc/start', self._on_start)
+        self.create_service(Trigger, 'push_mpc/stop', self._on_stop)
+        self.create_service(Trigger, 'push_mpc/resume', self._on_resume)
+
+    def _start_timers(self) -> None:
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(REPORT_PERIOD, self._report, clock=steady)
+        if self._settings.mode == 'realtime':
+            self.create_timer(WATCHDOG_PERIOD, self._watch, clock=steady)
+
+    def _tick(self, stamp: int, exposure: float, now: float) -> None:
+        """Answers a new pair of poses, exposed at a stamp [ns]; times are in seconds."""
+        arrived = time.perf_counter()
+        self._take_model()
+        object_pose = conversions.planar_pose(self._poses.object_pose)
+        tip = conversions.position(self._poses.tip)
+        tick = self._controller.step(object_pose, tip, exposure, now)
+        if tick.mode != Mode.IDLE:
+            self._send(tick, stamp)
+        self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+
+    def _send(self, tick: Tick, stamp: int) -> None:
+        conversions.set_stamp(self._command, stamp)
+        conversions.fill_command(self._command, tick.velocity)
+        self._commands.publish(self._command)
+        self._answered = stamp
+
+    def _repeat(self) -> None:
+        """The simulator asks again: the answer to its last question got lost."""
+        if self._controller.mode != Mode.IDLE:
+            self._commands.publish(self._command)
+
+    def _tell(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+        conversions.set_stamp(self._state, stamp)
+        conversions.fill_state(self._state, tick)
+        self._state.tick = self._tick_count
+        self._state.tick_ms = tick_ms
+        self._state.stop_reason = self._controller.stop_reason
+        self._state.model_id = self._controller.model_id
+        self._states.publish(self._state)
+        self._tick_count += 1
+
+    def _take_model(self) -> None:
+        ready = self._model.ready
+        if ready is not None and ready.model_id != self._controller.model_id:
+            self._controller.use(ready)
+
+    def _watch(self) -> None:
+        """Stops on old poses; the poses themselves drive everything else."""
+        if self._controller.mode in _MOVING and self._poses.age > self._settings.pose_timeout:
+            self._halt(f'no pose for {1e3 * self._poses.age:.0f} ms')
+
+    def _halt(self, reason: str) -> None:
+        """Stops at once, without waiting for a pose to answer."""
+        self._controller.stop(reason)
+        stamp = self._answered
+        halted = Tick(Mode.STOPPED, np.zeros(2))
+        self._send(halted, stamp)
+        self._tell(halted, stamp, 0.0)
+        self.get_logger().error(f'stopped: {reason}')
+
+    def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self._take_model()
+        answer.message = self._obstacle()
+        answer.success = not answer.message
+        if answer.success:
+            self._scheduling = self._scheduling or settle()
+            self._controller.arm()
+            self._poses.restart()
+            answer.message = f'armed; {self._scheduling}'
+        return answer
+
+    def _on_stop(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self._halt('stopped on request')
+        answer.success, answer.message = True, 'stopped; push_mpc/resume releases the stop'
+        return answer
+
+    def _on_resume(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self._controller.resume()
+        answer.success, answer.message = True, 'released; push_mpc/start begins anew'
+        return answer
+
+    def _obstacle(self) -> str:
+        """Why nothing may move yet, empty if it may."""
+        if self._controller.mode == Mode.STOPPED:
+            return f'stopped: {self._controller.stop_reason}; call push_mpc/resume first'
+        if self._controller.mode in _MOVING:
+            return 'already started'
+        if not self._controller.model_id:
+            return f'waiting for the model: {self._model.problem}'
+        if self._settings.require_recorder and not self._recorder.is_recording:
+            return 'waiting for the recorder'
+        if not self._poses.seen:
+            return 'waiting for poses'
+        return ''
+
+    def _report(self) -> None:
+        stopped = self._controller.mode == Mode.STOPPED
+        reason = self._controller.stop_reason if stopped else self._model.problem
+        values = {'model': self._controller.model_id, 'ticks': str(self._tick_count)}
+        self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
+
+
+def _defaults(profile: str) -> MpcSettings:
+    """The settings that a profile brings; an unknown one is refused where it is declared."""
+    actuator = ACTUATORS.get(profile, ACTUATORS['irb120'])
+    return replace(MpcSettings(), actuator=actuator)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the controller until SIGINT or SIGTERM."""
+    return run_node(MpcNode, argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,37 @@
+"""Parameters of the controller node: those of the controller, and what it shall track."""
+
+from dataclasses import dataclass
+
+from push_core.actuator import ACTUATORS
+from push_core.settings import nested, setting, validate
+from push_core.slider import Slider
+
+from push_mpc.settings import ControllerSettings
+
+
+@dataclass(frozen=True)
+class MpcSettings(ControllerSettings):
+    """Parameters of mpc_node."""
+
+    track: str = setting('eight', 'eight, square, line or a .csv file of x, y [m]')
+    speed: float = setting(
+        0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
+    )
+    laps: int = setting(1, 'rounds of a closed track', low=1, high=1000)
+    controller: str = setting(
+        'gp', 'which model of the object it steers by', choices=('gp', 'analytical')
+    )
+    profile: str = setting(
+        'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
+    )
+    mode: str = setting(
+        'realtime', 'what the clock is: the wall or /clock', choices=('realtime', 'lockstep')
+    )
+    pose_timeout: float = setting(
+        0.03, 'age of the newest pose at which it stops', unit='s', low=0.011, high=1.0
+    )
+    require_recorder: bool = setting(True, 'start only while the recorder records')
+    slider: Slider = nested(Slider())
+
+    def __post_init__(self) -> None:
+        validate(self)

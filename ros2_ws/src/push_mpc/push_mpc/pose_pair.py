@@ -1,0 +1,94 @@
+"""Object and tip seen at the same instant, and when that was."""
+
+import time
+from collections.abc import Callable
+
+from geometry_msgs.msg import PoseStamped
+from push_node import qos
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+
+from push_mpc.conversions import nanoseconds, seconds
+
+
+class PosePair:
+    """Subscribes to both poses and calls back once for each new pair.
+
+    In lockstep the clock of a tick is a third message, and the simulator repeats all three until
+    they are answered.
+
+    Attributes:
+        object_pose: newest pose of the object.
+        tip: newest pose of the tip.
+        seen: whether any pair came since the node started.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        lockstep: bool,
+        on_pair: Callable[[int, float, float], None],
+        on_repeat: Callable[[], None],
+    ) -> None:
+        """Subscribes.
+
+        Args:
+            node: the node that listens.
+            lockstep: whether time is what /clock says.
+            on_pair: called with the stamp of the exposure [ns], the exposure and the present [s].
+            on_repeat: called when the simulator repeats the last pair.
+        """
+        self.object_pose = PoseStamped()
+        self.tip = PoseStamped()
+        self.seen = False
+        self._on_pair, self._on_repeat = on_pair, on_repeat
+        self._node_clock = node.get_clock()
+        self._lockstep = lockstep
+        self.restart()
+        node.create_subscription(PoseStamped, 'object_pose', self._on_object, qos.POSE)
+        node.create_subscription(PoseStamped, 'pusher_pose', self._on_tip, qos.POSE)
+        if lockstep:
+            node.create_subscription(Clock, '/clock', self._on_clock, 1)
+
+    def restart(self) -> None:
+        """Forgets everything: the next pair is the first, and time [s] counts from it."""
+        self._origin = -1
+        self._handled = self._handled_clock = -1
+        self._clock = -1
+        self._object_stamp, self._tip_stamp = -1, -2
+        self._arrival = time.monotonic()
+
+    @property
+    def age(self) -> float:
+        """Time [s] since the last pair came, or since a restart."""
+        return time.monotonic() - self._arrival
+
+    def _on_object(self, message: PoseStamped) -> None:
+        self.object_pose = message
+        self._object_stamp = nanoseconds(message.header.stamp)
+        self._handle_if_complete()
+
+    def _on_tip(self, message: PoseStamped) -> None:
+        self.tip = message
+        self._tip_stamp = nanoseconds(message.header.stamp)
+        self._handle_if_complete()
+
+    def _on_clock(self, message: Clock) -> None:
+        self._clock = nanoseconds(message.clock)
+        if self._clock == self._handled_clock:
+            self._on_repeat()
+        else:
+            self._handle_if_complete()
+
+    def _handle_if_complete(self) -> None:
+        stamp = self._object_stamp
+        if stamp != self._tip_stamp or stamp <= self._handled:
+            return
+        if self._lockstep and self._clock <= self._handled_clock:
+            return
+        self._handled, self._handled_clock = stamp, self._clock
+        self._origin = stamp if self._origin < 0 else self._origin
+        self._arrival = time.monotonic()
+        self.seen = True
+        now = self._clock if self._lockstep else self._node_clock.now().nanoseconds
+        self._on_pair(stamp, seconds(stamp - self._origin), seconds(now - self._origin))

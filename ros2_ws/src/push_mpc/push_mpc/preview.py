@@ -1,0 +1,55 @@
+"""The linearised dynamics along the whole plan, computed once for each plan and model."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.frames import Array
+
+from push_mpc.dynamics import TravelModel, discretised, linearised, rates
+from push_mpc.nominal import Plan
+
+
+@dataclass(frozen=True)
+class Preview:
+    """Transitions of one horizon step from every sample of a plan.
+
+    Attributes:
+        stride: samples of the plan in one horizon step.
+        transition: A (n, 4, 4).
+        effect: B (n, 4, 2).
+        drift: c (n, 4): motion of the model along the plan minus that of the plan.
+        input: nominal input, mean over the step (n, 2) [m/s].
+        contact: nominal p_y at the end of the step (n,) [m].
+    """
+
+    stride: int
+    transition: Array
+    effect: Array
+    drift: Array
+    input: Array
+    contact: Array
+
+    @classmethod
+    def of(cls, plan: Plan, model: TravelModel, tip_x: float, stride: int) -> 'Preview':
+        """Linearises a model about a plan."""
+        by_state, by_input = linearised(model, plan.state, plan.input, tip_x)
+        transition, effect = discretised(by_state, by_input, stride, plan.period)
+        index = np.arange(len(plan.state))
+        ahead = np.minimum(index + stride, len(index) - 1)
+        drift = _drift(plan, model, tip_x, stride)
+        return cls(stride, transition, effect, drift, plan.input, plan.state[ahead, 3])
+
+    def window(self, sample: int, steps: int) -> Array:
+        """Indices (steps,) of the horizon that starts at a sample; held at the plan's end."""
+        last = len(self.transition) - 1
+        return np.minimum(sample + self.stride * np.arange(steps), last)
+
+
+def _drift(plan: Plan, model: TravelModel, tip_x: float, stride: int) -> Array:
+    """Sum over a step of how far the model's motion at the nominal leaves the plan, (n, 4)."""
+    motion = rates(model, plan.state, plan.input, tip_x)
+    planned = np.gradient(plan.state, plan.period, axis=0)
+    missed = plan.period * (motion - planned)
+    total = np.concatenate([np.zeros((1, 4)), np.cumsum(missed, axis=0)])
+    ahead = np.minimum(np.arange(len(missed)) + stride, len(missed))
+    return np.asarray(total[ahead] - total[: len(missed)])

@@ -1,0 +1,46 @@
+"""Settings of the controller."""
+
+from dataclasses import dataclass
+
+from push_core.actuator import ActuatorSettings
+from push_core.safety import SafetyLimits
+from push_core.settings import nested, setting, validate
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Diagonals of Q and R: cost per squared deviation from the nominal."""
+
+    position: float = setting(6000.0, 'object position', unit='1/m^2', low=0.0, high=1e9)
+    heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
+    contact: float = setting(30.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
+    normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
+    tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class ControllerSettings:
+    """Model-predictive control about a timed nominal trajectory."""
+
+    period: float = setting(0.01, 'time between two ticks', unit='s', low=0.001, high=0.1)
+    horizon_steps: int = setting(35, 'steps of the horizon', low=2, high=200)
+    horizon_length: float = setting(
+        0.084, 'path that the horizon spans', unit='m', low=0.001, high=1.0
+    )
+    weights: Weights = nested(Weights())
+    normal_speed_limit: float = setting(
+        0.25, 'largest v_n; the smallest is 0', unit='m/s', low=1e-3, high=2.0
+    )
+    tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
+    delay_compensation: bool = setting(
+        True, 'roll the measured state forward through the commands already sent'
+    )
+    actuator: ActuatorSettings = nested(ActuatorSettings())
+    limits: SafetyLimits = nested(SafetyLimits())
+    good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)
+
+    def __post_init__(self) -> None:
+        validate(self)
