@@ -14,12 +14,12 @@
 import math
 
 import numpy as np
-import pybullet
 from push_core.frames import Array
 from push_core.limit_surface import GRAVITY
 from push_core.quaternion import quaternion_to_yaw, yaw_to_quaternion
 from push_core.slider import Slider
 
+from push_sim.bullet import pybullet
 from push_sim.settings import WorldSettings
 
 _HALF_HEIGHT = 0.0065

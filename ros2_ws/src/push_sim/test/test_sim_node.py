@@ -1,0 +1,191 @@
+"""The node as a process of its own, over real DDS."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+import rclpy
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.slider import Slider
+from push_msgs.msg import Perturbation
+from push_msgs.srv import Perturb, Reset
+from push_node.qos import COMMAND, EVENT, POSE
+from push_node.spin import spin_until
+from push_sim.conversions import to_nanoseconds
+from push_sim.plant import Plant
+from push_sim.settings import profile
+from rclpy.node import Node
+
+DOMAIN = '64'
+OBJECT_POSE = [0.1, -0.2, 0.3]
+TIP = Slider().tip_position(np.array(OBJECT_POSE), 0.01).tolist()
+
+
+class Client:
+    """Stands for the controller: keeps what came and sends commands."""
+
+    def __init__(self) -> None:
+        self.node = Node('client')
+        self.poses: list[PoseStamped] = []
+        self.perturbations: list[Perturbation] = []
+        self.answer: Callable[[PoseStamped], TwistStamped] | None = None
+        self._commands = self.node.create_publisher(TwistStamped, 'pusher_velocity_cmd', COMMAND)
+        self.node.create_subscription(PoseStamped, 'object_pose', self._on_pose, POSE)
+        self.node.create_subscription(
+            Perturbation, 'perturbation', self.perturbations.append, EVENT
+        )
+        self._reset = self.node.create_client(Reset, 'push_sim/reset')
+        self._perturb = self.node.create_client(Perturb, 'push_sim/perturb')
+
+    def _on_pose(self, message: PoseStamped) -> None:
+        self.poses.append(message)
+        if self.answer is not None:
+            self._commands.publish(self.answer(message))
+
+    def wait(self, finished: Callable[[], bool], timeout: float = 10.0) -> None:
+        end = time.monotonic() + timeout
+        spin_until(self.node, lambda: finished() or time.monotonic() > end)
+        assert finished()
+
+    def reset(self, seed: int = 5) -> Reset.Response:
+        request = Reset.Request(seed=seed, object_pose=OBJECT_POSE, tip_position=TIP)
+        return self._call(self._reset, request)
+
+    def perturb(self, **request: float) -> Perturb.Response:
+        return self._call(self._perturb, Perturb.Request(**request))
+
+    def _call(self, client, request):
+        self.wait(client.service_is_ready)
+        future = client.call_async(request)
+        self.wait(future.done)
+        return future.result()
+
+
+@pytest.fixture(scope='module')
+def client() -> Iterator[Client]:
+    os.environ['ROS_DOMAIN_ID'] = DOMAIN
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    rclpy.init()
+    yield Client()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture(autouse=True)
+def forget(client: Client) -> None:
+    client.wait(lambda: not client.node.count_publishers('object_pose'))
+    client.answer = None
+    client.poses.clear()
+    client.perturbations.clear()
+
+
+@pytest.fixture
+def started() -> Iterator[Callable[..., subprocess.Popen[str]]]:
+    processes = []
+
+    def start(*parameters: str) -> subprocess.Popen[str]:
+        arguments = [argument for parameter in parameters for argument in ('-p', parameter)]
+        command = [sys.executable, '-m', 'push_sim.sim_node', '--ros-args', *arguments]
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        processes.append(process)
+        return process
+
+    yield start
+    for process in processes:
+        process.terminate()
+        process.communicate(timeout=2.0)
+
+
+def command(stamp, velocity) -> TwistStamped:
+    message = TwistStamped()
+    message.header.stamp = stamp
+    message.header.frame_id = 'world'
+    message.twist.linear.x, message.twist.linear.y = map(float, velocity)
+    return message
+
+
+def test_realtime_poses_come_on_a_grid_of_10_ms_until_sigterm(client, started) -> None:
+    process = started()
+    assert client.reset().success
+    client.poses.clear()
+    begin = time.monotonic()
+    client.wait(lambda: len(client.poses) >= 100)
+    assert time.monotonic() - begin == pytest.approx(1.0, abs=0.3)
+    steps = np.diff([to_nanoseconds(pose.header.stamp) for pose in client.poses])
+    assert np.all(steps % 10_000_000 == 0)
+    assert client.poses[-1].pose.position.x == pytest.approx(OBJECT_POSE[0], abs=1e-3)
+    begin = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=2.0) == 0
+    assert process.stderr is not None
+    assert 'Traceback' not in process.stderr.read()
+
+
+def test_lockstep_gives_the_trajectory_of_the_loop_without_dds(client, started, weave) -> None:
+    started('mode:=lockstep')
+    ticks = iter(range(1000))
+    answered: dict[int, np.ndarray] = {}
+
+    def answer(pose: PoseStamped) -> TwistStamped:
+        stamp = to_nanoseconds(pose.header.stamp)
+        if stamp not in answered:
+            answered[stamp] = weave(next(ticks))
+        return command(pose.header.stamp, answered[stamp])
+
+    assert client.reset().success
+    client.wait(lambda: len(client.poses) > 0)
+    client.poses.clear()
+    client.answer = answer
+    client.wait(lambda: len(answered) > 60)
+
+    plant = Plant(profile('irb120'), Slider())
+    observation = plant.reset(np.array(OBJECT_POSE), np.array(TIP), 5)
+    shown = {to_nanoseconds(pose.header.stamp): pose.pose for pose in client.poses}
+    for tick in range(60):
+        pose = shown[round(observation.time * 1e9)]
+        assert (pose.position.x, pose.position.y) == tuple(observation.object_pose[:2])
+        plant.command(weave(tick), plant.time)
+        observation = plant.step()
+
+
+def test_lockstep_waits_and_shows_an_unanswered_pose_again(client, started) -> None:
+    started('mode:=lockstep')
+    assert client.reset().success
+    client.poses.clear()
+    client.wait(lambda: len(client.poses) >= 3)
+    assert len({to_nanoseconds(pose.header.stamp) for pose in client.poses}) == 1
+
+
+def test_a_perturbation_is_applied_and_published(client, started) -> None:
+    started('mode:=lockstep', 'profile:=ideal')
+    assert client.reset().success
+    client.wait(lambda: client.node.count_publishers('perturbation') > 0)
+    client.answer = lambda pose: command(pose.header.stamp, (0.0, 0.0))
+    assert client.perturb(kind=Perturbation.NORMAL, magnitude=0.03, angle=0.0).success
+    client.wait(lambda: len(client.perturbations) == 1)
+    client.wait(lambda: client.poses[-1].pose.position.x > OBJECT_POSE[0] + 0.02)
+    moved = client.poses[-1].pose.position.x - OBJECT_POSE[0]
+    assert moved == pytest.approx(0.03 * np.cos(OBJECT_POSE[2]), abs=1e-6)
+    assert client.perturbations[0].direction.y == pytest.approx(np.sin(OBJECT_POSE[2]), abs=1e-6)
+
+
+def test_services_refuse_what_cannot_be_done(client, started) -> None:
+    started('mode:=lockstep')
+    assert 'seed' in client.reset(seed=-1).message
+    assert 'kind' in client.perturb(kind=9, magnitude=0.01, angle=0.0).message
+    assert 'magnitude' in client.perturb(kind=0, magnitude=float('nan'), angle=0.0).message
+
+
+@pytest.mark.parametrize(
+    'parameter', ['profile:=none', 'world.substep:=0.003', 'world.friction_ground:=-1.0', 'no:=1']
+)
+def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it(started, parameter) -> None:
+    process = started(parameter)
+    assert process.wait(timeout=10.0) == 2
+    lines = process.stderr.read().splitlines()
+    assert len(lines) == 1
+    assert parameter.split(':=')[0] in lines[0]
