@@ -1,0 +1,45 @@
+"""How the figures of the report look: colours, fonts, and how many points they draw."""
+
+from typing import Any
+
+import numpy as np
+import plotly.graph_objects as go
+from numpy.typing import NDArray
+
+# Okabe and Ito's colours, which colour-blind readers tell apart
+BLUE, ORANGE, GREEN, RED = '#0072b2', '#e69f00', '#009e73', '#d55e00'
+INK, GREY, FAINT = '#1f2933', '#8a94a0', '#e4e8ec'
+MOST_POINTS = 6000  # of one series; a minute at 100 Hz is drawn in full
+
+FONT = {'family': 'system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif', 'size': 13}
+AXIS = {
+    'gridcolor': FAINT,
+    'linecolor': GREY,
+    'zeroline': False,
+    'showline': True,
+    'ticks': 'outside',
+    'tickcolor': GREY,
+    'title_standoff': 8,
+}
+
+
+def styled(figure: go.Figure, height: int, **layout: Any) -> go.Figure:
+    """The figure in the report's style, `height` pixels high."""
+    figure.update_layout(
+        template='none',
+        height=height,
+        font=FONT | {'color': INK},
+        margin={'l': 70, 'r': 20, 't': 40, 'b': 50},
+        paper_bgcolor='white',
+        plot_bgcolor='white',
+        legend={'orientation': 'h', 'y': 1.0, 'yanchor': 'bottom', 'x': 0.0},
+    )
+    figure.update_xaxes(**AXIS)
+    figure.update_yaxes(**AXIS)
+    return figure.update_layout(**layout)
+
+
+def thinned(*series: NDArray[Any]) -> tuple[NDArray[np.float32], ...]:
+    """Series (n,) of one length, every k-th point where n is above MOST_POINTS, as float32."""
+    step = max(1, -(-series[0].shape[0] // MOST_POINTS))
+    return tuple(np.asarray(values[::step], np.float32) for values in series)

@@ -1,0 +1,95 @@
+"""The run over time: errors, contact and inputs on one linked axis."""
+
+import numpy as np
+import plotly.graph_objects as go
+from plotly.subplots import make_subplots
+from push_msgs.msg import ControllerState
+
+from push_bag.contact import Contact, loss_intervals
+from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled, thinned
+from push_bag.series import Floats, Reference, RunSeries
+from push_bag.tracking import Tracking, reference_times
+
+ROWS = ('error [mm]', 'heading [deg]', 'p_y [mm]', 'gap [mm]', 'v_n [mm/s]', 'v_t [mm/s]')
+HEIGHT = 1100
+
+
+def time_figure(
+    run: RunSeries, reference: Reference, tracking: Tracking, contact: Contact
+) -> go.Figure:
+    """Errors, contact offset, gap and inputs over reference time, zooming together."""
+    figure = make_subplots(len(ROWS), 1, shared_xaxes=True, vertical_spacing=0.025)
+    _add_errors(figure, tracking)
+    _add_contact(figure, run, reference, contact)
+    _add_inputs(figure, run)
+    _mark_events(figure, run, contact)
+    styled(figure, HEIGHT, hovermode='x unified')
+    for row, title in enumerate(ROWS, start=1):
+        figure.update_yaxes(title=title, row=row, col=1)
+    # one shared axis, so that the cursor crosses all rows
+    figure.update_traces(xaxis=f'x{len(ROWS)}')
+    figure.update_xaxes(title='reference time [s]', row=len(ROWS), col=1)
+    return figure.update_xaxes(showspikes=True, spikemode='across', spikethickness=1)
+
+
+def _add_errors(figure: go.Figure, tracking: Tracking) -> None:
+    time = tracking.reference_time
+    _line(figure, 1, 'tracking error', time, tracking.distance * 1e3, BLUE)
+    _line(figure, 1, 'cross-track error, left positive', time, tracking.cross_track * 1e3, ORANGE)
+    _line(figure, 2, 'heading error', time, np.degrees(tracking.heading), GREEN)
+
+
+def _add_contact(
+    figure: go.Figure, run: RunSeries, reference: Reference, contact: Contact
+) -> None:
+    time = reference_times(run, contact.stamp) if contact.stamp.size else np.zeros(0)
+    _line(figure, 3, 'contact offset', time, contact.p_y * 1e3, BLUE)
+    _line(figure, 3, 'nominal', reference.time, reference.p_y * 1e3, INK, 'dot')
+    _line(figure, 4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
+
+
+def _add_inputs(figure: go.Figure, run: RunSeries) -> None:
+    ticks = run.state('mode') == ControllerState.TRACKING
+    time = run.state('reference_time')[ticks]
+    for row, name in ((5, 'v_n'), (6, 'v_t')):
+        speed = run.state(name)[ticks] * 1e3
+        nominal = run.state(f'nominal_{name}')[ticks] * 1e3
+        _line(figure, row, f'commanded {name}', time, speed, BLUE)
+        _line(figure, row, f'nominal {name}', time, nominal, INK, 'dot')
+    _add_limited(figure, time, run.state('v_n')[ticks] * 1e3, run.state('limited')[ticks])
+
+
+def _add_limited(figure: go.Figure, time: Floats, speed: Floats, bits: Floats) -> None:
+    limited = bits > 0
+    if not limited.any():
+        return
+    x, y = thinned(time[limited], speed[limited])
+    marks = go.Scatter(x=x, y=y, mode='markers', name='limited', marker={'color': RED, 'size': 5})
+    figure.add_trace(marks, row=5, col=1)
+
+
+def _mark_events(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+    """Red lines for perturbations, grey bands for the time without contact."""
+    if not contact.stamp.size:
+        return
+    for interval in loss_intervals(contact):
+        start, end = reference_times(run, np.array(interval))
+        figure.add_vrect(start, end, fillcolor=GREY, opacity=0.25, line_width=0, row='all', col=1)
+    for each in run.disturbances:
+        (time,) = reference_times(run, np.array([each.stamp]))
+        figure.add_vline(time, line={'color': RED, 'width': 1.5}, row='all', col=1)
+
+
+def _line(
+    figure: go.Figure,
+    row: int,
+    name: str,
+    time: Floats,
+    values: Floats,
+    colour: str,
+    dash: str = 'solid',
+) -> None:
+    x, y = thinned(time, values)
+    line = {'color': colour, 'width': 1.5, 'dash': dash}
+    trace = go.Scatter(x=x, y=y, mode='lines', name=name, line=line, hovertemplate='%{y:.2f}')
+    figure.add_trace(trace, row=row, col=1)
