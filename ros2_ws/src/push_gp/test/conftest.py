@@ -1,0 +1,56 @@
+"""Pushes to learn from: made with the motion cone and noise, and the measured ones."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from push_core.motion_cone import MotionCone
+from push_core.push_csv import read_pushes
+from push_core.push_set import PushSet
+from push_core.slider import Slider
+from push_gp.gp_model import GpModel
+from push_gp.learn import learned
+
+DISTANCE = 0.004
+NOISE = [1e-4, 1e-4, 4e-3]
+
+
+def made_pushes(count: int, seed: int) -> PushSet:
+    """Pushes as a slider of the nominal friction would answer, with measurement noise."""
+    generator = np.random.default_rng(seed)
+    p_y = generator.uniform(-0.044, 0.044, count)
+    beta = generator.uniform(0.2, 2.9, count)
+    rate, _ = MotionCone(Slider()).evaluate(p_y, beta)
+    noise = generator.normal(size=(count, 3)) * NOISE
+    return PushSet(p_y, beta, rate * DISTANCE + noise, DISTANCE)
+
+
+@pytest.fixture(scope='session')
+def pushes() -> PushSet:
+    return made_pushes(60, seed=1)
+
+
+@pytest.fixture(scope='session')
+def more_pushes() -> PushSet:
+    return made_pushes(12, seed=2)
+
+
+@pytest.fixture(scope='session')
+def model(pushes: PushSet) -> GpModel:
+    return learned(pushes)
+
+
+@pytest.fixture(scope='session')
+def measured() -> PushSet:
+    beside_the_project = Path(__file__).resolve().parents[5] / 'shared' / 'data'
+    folder = Path(os.environ.get('PUSH_DATA_DIR', beside_the_project))
+    if not folder.is_dir():
+        pytest.skip(f'no measured pushes in {folder}; PUSH_DATA_DIR names their folder')
+    return read_pushes(folder / 'square_4mm_pushes.csv')
+
+
+@pytest.fixture
+def queries() -> tuple[np.ndarray, np.ndarray]:
+    generator = np.random.default_rng(3)
+    return generator.uniform(-0.044, 0.044, 40), generator.uniform(0.2, 2.9, 40)

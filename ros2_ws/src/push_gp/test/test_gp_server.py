@@ -1,0 +1,199 @@
+"""The server as a process of its own, over real DDS."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+import rclpy
+from push_core.push_set import PushSet
+from push_gp.gp_model import GpModel
+from push_gp.model_file import save_model
+from push_msgs.msg import ModelInfo
+from push_msgs.srv import AddPushes, Predict
+from push_node.qos import LATCHED
+from rclpy.experimental import EventsExecutor
+
+DOMAIN = 63
+PATIENCE = 20.0
+
+
+class Client:
+    """Calls the server and keeps what it announces."""
+
+    def __init__(self) -> None:
+        self.node = rclpy.create_node('client')
+        self.executor = EventsExecutor()
+        self.executor.add_node(self.node)
+        self.announced: list[ModelInfo] = []
+        self.node.create_subscription(ModelInfo, 'model_info', self.announced.append, LATCHED)
+        self.predictor = self.node.create_client(Predict, 'push_gp/predict')
+        self.adder = self.node.create_client(AddPushes, 'push_gp/add_pushes')
+
+    def wait_until(self, condition: Callable[[], bool]) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, 'the server did not answer'
+            self.executor.spin_once(timeout_sec=0.1)
+
+    def predict(self, p_y: Any, beta: Any, *, want_variance: bool = False) -> Predict.Response:
+        request = Predict.Request(p_y=p_y, beta=beta, want_variance=want_variance)
+        return self._answer(self.predictor, request)
+
+    def add(self, pushes: PushSet, **changes: Any) -> AddPushes.Response:
+        request = AddPushes.Request(
+            p_y=pushes.p_y,
+            beta=pushes.beta,
+            displacement=pushes.displacement.ravel(),
+            distance=pushes.distance,
+        )
+        for name, value in changes.items():
+            setattr(request, name, value)
+        return self._answer(self.adder, request)
+
+    def _answer(self, client: Any, request: Any) -> Any:
+        self.wait_until(client.service_is_ready)
+        future = client.call_async(request)
+        self.wait_until(future.done)
+        return future.result()
+
+
+def started(*parameters: str) -> subprocess.Popen[str]:
+    options = [option for parameter in parameters for option in ('-p', parameter)]
+    return subprocess.Popen(
+        [sys.executable, '-m', 'push_gp.gp_server', '--ros-args', *options],
+        env={**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+@pytest.fixture(scope='module')
+def client() -> Iterator[Client]:
+    rclpy.init(domain_id=DOMAIN)
+    client = Client()
+    yield client
+    client.executor.remove_node(client.node)
+    client.node.destroy_node()
+    rclpy.shutdown()
+
+
+@pytest.fixture(scope='module')
+def server(
+    client: Client, model: GpModel, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[subprocess.Popen[str]]:
+    path = tmp_path_factory.mktemp('model') / 'model.npz'
+    save_model(path, model)
+    process = started(f'model:={path}')
+    client.wait_until(lambda: bool(client.announced))
+    yield process
+    process.terminate()
+    process.wait(2.0)
+    assert process.returncode == 0
+
+
+@pytest.mark.usefixtures('server')
+class TestServer:
+    def test_it_announces_its_model_to_who_comes_late(
+        self, client: Client, model: GpModel
+    ) -> None:
+        announced = client.announced[0]
+        assert announced.model_hash == model.info.model_hash
+        assert announced.kind == 'gp'
+        assert announced.points == 60
+        assert announced.distance == 0.004
+        assert np.array_equal(announced.lengthscales, model.info.lengthscales.ravel())
+
+    def test_it_answers_with_the_very_numbers_of_the_model(
+        self, client: Client, model: GpModel, queries: tuple[np.ndarray, np.ndarray]
+    ) -> None:
+        answer = client.predict(*queries, want_variance=True)
+        mean, jacobian = model.evaluate(*queries)
+        assert answer.success
+        assert answer.model_id == model.info.model_id
+        assert np.array_equal(np.reshape(answer.mean, (40, 3)), mean)
+        assert np.array_equal(np.reshape(answer.jacobian, (40, 3, 2)), jacobian)
+        assert np.array_equal(np.reshape(answer.variance, (40, 3)), model.variance(*queries))
+
+    def test_it_answers_for_none_and_for_many(self, client: Client) -> None:
+        assert client.predict([], []).success
+        many = client.predict(np.zeros(5000), np.full(5000, 1.5))
+        assert len(many.jacobian) == 30_000
+        assert len(many.variance) == 0
+
+    def test_it_refuses_bad_requests_and_lives_on(
+        self, client: Client, more_pushes: PushSet
+    ) -> None:
+        refusals = [
+            client.predict([0.0], []),
+            client.predict([np.nan], [1.0]),
+            client.predict([np.inf], [1.0]),
+            client.predict([0.2], [1.0]),
+            client.predict([0.0], [3.2]),
+            client.add(more_pushes, beta=[1.0]),
+            client.add(more_pushes, displacement=[0.0]),
+            client.add(more_pushes, distance=0.01),
+            client.add(more_pushes, distance=np.nan),
+            client.add(more_pushes, p_y=[], beta=[], displacement=[]),
+        ]
+        for refusal in refusals:
+            assert not refusal.success
+            assert refusal.message
+        assert client.predict([0.0], [1.0]).success
+
+    def test_it_outlives_a_client_that_dies_in_the_middle_of_a_call(self, client: Client) -> None:
+        code = (
+            'import os, rclpy; from push_msgs.srv import Predict; rclpy.init();'
+            'node = rclpy.create_node("dying");'
+            'client = node.create_client(Predict, "push_gp/predict");'
+            'assert client.wait_for_service(10.0);'
+            'client.call_async(Predict.Request(p_y=[0.0] * 20000, beta=[1.5] * 20000));'
+            'os._exit(0)'
+        )
+        environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
+        subprocess.run([sys.executable, '-c', code], env=environment, check=True, timeout=20)
+        assert client.predict([0.0], [1.0]).success
+
+    def test_it_takes_new_pushes_in_and_announces_the_new_model(
+        self, client: Client, model: GpModel, more_pushes: PushSet
+    ) -> None:
+        before = len(client.announced)
+        answer = client.add(more_pushes)
+        assert answer.success
+        assert answer.points == 72
+        client.wait_until(lambda: len(client.announced) > before)
+        assert client.announced[-1].model_id == answer.model_id
+        assert client.announced[-1].model_hash == model.extended(more_pushes).info.model_hash
+        assert client.predict([0.0], [1.0]).model_id == answer.model_id
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> None:
+    before = len(client.announced)
+    process = started('model:=analytical', 'slider.friction_pusher:=0.2')
+    client.wait_until(lambda: len(client.announced) > before)
+    assert client.announced[-1].kind == 'analytical'
+    process.send_signal(number)
+    assert process.wait(2.0) == 0
+
+
+@pytest.mark.parametrize(
+    ('parameter', 'fault'),
+    [
+        ('model:=none.npz', 'No such file'),
+        ('speed:=3.0', "unknown parameter 'speed'"),
+        ('max_points:=0', 'max_points is 0'),
+        ('slider.side:=wide', 'takes float'),
+        ('distance:=-0.004', 'distance is -0.004'),
+    ],
+)
+def test_a_wrong_parameter_is_one_line_and_status_2(parameter: str, fault: str) -> None:
+    _, shown = (process := started(parameter)).communicate(timeout=10.0)
+    assert process.returncode == 2
+    assert fault in shown
+    assert shown.count('\n') == 1

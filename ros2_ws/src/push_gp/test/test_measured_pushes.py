@@ -1,0 +1,57 @@
+"""What the measured pushes must show; the figures are those of data/README.md and issue C."""
+
+import numpy as np
+import pytest
+from push_core.accuracy import accuracy
+from push_core.push_set import PushSet
+from push_core.slider import Slider
+from push_gp.analytical_model import AnalyticalModel
+from push_gp.calibration import calibration
+from push_gp.learn import learned
+from push_gp.model import PushModel
+from push_gp.sampling import nested_rows, subset_rows
+
+
+def split(measured: PushSet, rows: np.ndarray) -> tuple[PushSet, PushSet]:
+    rest = np.setdiff1d(np.arange(len(measured)), rows)
+    return measured.take(rows), measured.take(rest)
+
+
+def push_frame_nmse(model: PushModel, pushes: PushSet) -> float:
+    predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
+    return float(accuracy(predicted, pushes).nmse_push_frame.mean())
+
+
+@pytest.mark.parametrize(('points', 'worst'), [(100, 0.052), (200, 0.050), (500, 0.042)])
+def test_the_gp_tells_held_out_pushes_as_well_as_published(
+    measured: PushSet, points: int, worst: float
+) -> None:
+    training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
+    assert push_frame_nmse(learned(training), rest) <= worst
+
+
+@pytest.mark.parametrize('points', [100, 200, 500])
+def test_its_95_percent_intervals_hold_92_to_97_percent(measured: PushSet, points: int) -> None:
+    training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
+    assert 0.92 <= calibration(learned(training), rest).coverage_95.mean() <= 0.97
+
+
+def test_the_fitted_limit_surface_has_the_published_error_in_both_frames(
+    measured: PushSet,
+) -> None:
+    cone = AnalyticalModel(Slider(friction_pusher=0.229, support_radius=0.0348))
+    predicted, _ = cone.evaluate(measured.p_y, measured.beta)
+    found = accuracy(predicted, measured)
+    assert found.nmse_push_frame.mean() == pytest.approx(0.066, abs=0.002)
+    assert found.nmse_body_frame.mean() == pytest.approx(0.136, abs=0.008)
+
+
+@pytest.mark.parametrize(('points', 'median'), [(5, 0.085), (10, 0.080), (20, 0.070)])
+def test_over_the_cone_a_handful_of_pushes_is_enough(
+    measured: PushSet, points: int, median: float
+) -> None:
+    found = []
+    for seed in range(10):
+        training, rest = split(measured, nested_rows(measured, points, seed))
+        found.append(push_frame_nmse(learned(training, 'analytical'), rest))
+    assert np.median(found) <= median

@@ -1,0 +1,123 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from push_core.errors import InputError, RunError
+from push_core.push_set import PushSet
+from push_core.slider import Slider
+from push_gp.analytical_model import AnalyticalModel
+from push_gp.fit_cone import fitted_cone
+from push_gp.gp_model import GpModel
+from push_gp.learn import learned
+from push_gp.mean_function import ZeroMean
+from push_gp.model import PushModel
+
+Queries = tuple[np.ndarray, np.ndarray]
+
+
+@pytest.fixture(params=['gp', 'gp over the cone', 'cone'])
+def any_model(request: pytest.FixtureRequest, model: GpModel, pushes: PushSet) -> PushModel:
+    if request.param == 'gp':
+        return model
+    return AnalyticalModel() if request.param == 'cone' else learned(pushes, 'analytical')
+
+
+def test_the_jacobian_is_that_of_central_differences(
+    any_model: PushModel, queries: Queries
+) -> None:
+    p_y, beta = queries
+    _, jacobian = any_model.evaluate(p_y, beta)
+    for column, (along_p_y, along_beta) in enumerate([(1e-7, 0.0), (0.0, 1e-5)]):
+        ahead, _ = any_model.evaluate(p_y + along_p_y, beta + along_beta)
+        behind, _ = any_model.evaluate(p_y - along_p_y, beta - along_beta)
+        differences = (ahead - behind) / (2.0 * (along_p_y + along_beta))
+        scale = np.abs(differences).max(axis=0)
+        assert (np.abs(jacobian[:, :, column] - differences) <= 1e-6 * scale).all()
+
+
+def test_one_push_more_or_less_in_the_batch_changes_no_answer(
+    any_model: PushModel, queries: Queries
+) -> None:
+    p_y, beta = queries
+    mean, jacobian = any_model.evaluate(p_y, beta)
+    first_mean, first_jacobian = any_model.evaluate(p_y[:1], beta[:1])
+    assert mean.shape == (40, 3)
+    assert jacobian.shape == (40, 3, 2)
+    assert np.allclose(first_mean, mean[:1], rtol=1e-12, atol=0.0)
+    assert np.allclose(first_jacobian, jacobian[:1], rtol=1e-9, atol=1e-15)
+
+
+def test_the_gp_learns_what_made_the_pushes(model: GpModel, queries: Queries) -> None:
+    mean, _ = model.evaluate(*queries)
+    truth, _ = AnalyticalModel().evaluate(*queries)
+    assert (np.sqrt(np.mean((mean - truth) ** 2, axis=0)) < [3e-4, 3e-4, 8e-3]).all()
+
+
+def test_the_variance_shrinks_towards_the_pushes(model: GpModel, pushes: PushSet) -> None:
+    there = model.variance(pushes.p_y, pushes.beta)
+    beside = model.variance(np.array([0.05]), np.array([0.01]))
+    assert there.shape == (60, 3)
+    assert (there < beside).all()
+    assert (there < model.noise_variance).all()
+
+
+def test_the_motion_cone_states_no_variance(queries: Queries) -> None:
+    with pytest.raises(RunError, match='no variance'):
+        AnalyticalModel().variance(*queries)
+
+
+def test_an_extended_model_is_the_model_of_all_pushes(
+    model: GpModel, pushes: PushSet, more_pushes: PushSet, queries: Queries
+) -> None:
+    extended = model.extended(more_pushes)
+    hyperparameters = [process.hyperparameters for process in model.processes]
+    rebuilt = GpModel.conditioned(pushes.joined(more_pushes), ZeroMean(), hyperparameters)
+    for ours, theirs in zip(extended.evaluate(*queries), rebuilt.evaluate(*queries), strict=True):
+        assert np.allclose(ours, theirs, rtol=1e-8, atol=1e-12)
+    assert extended.info.points == 72
+    assert extended.info.training_set_hash == rebuilt.info.training_set_hash
+    assert model.info.points == 60
+
+
+def test_pushes_of_another_distance_do_not_extend_a_model(
+    model: GpModel, more_pushes: PushSet
+) -> None:
+    with pytest.raises(InputError, match='do not join'):
+        model.extended(replace(more_pushes, distance=0.005))
+
+
+def test_whatever_changes_an_answer_changes_the_hash(
+    model: GpModel, pushes: PushSet, more_pushes: PushSet
+) -> None:
+    displacement = pushes.displacement.copy()
+    displacement[3, 1] += 1e-9
+    hyperparameters = [process.hyperparameters for process in model.processes]
+    louder = [hyperparameters[0], hyperparameters[1], replace(hyperparameters[2], noise_std=0.01)]
+    hashes = {
+        each.info.model_hash
+        for each in (
+            model,
+            model.extended(more_pushes),
+            GpModel.conditioned(
+                replace(pushes, displacement=displacement), ZeroMean(), hyperparameters
+            ),
+            GpModel.conditioned(pushes, ZeroMean(), louder),
+            GpModel.conditioned(pushes, AnalyticalModel(), hyperparameters),
+            AnalyticalModel(),
+            AnalyticalModel(Slider(friction_pusher=0.2)),
+            AnalyticalModel(distance=0.005),
+        )
+    }
+    assert len(hashes) == 8
+
+
+def test_the_info_states_the_domain_of_the_pushes(model: GpModel, pushes: PushSet) -> None:
+    assert model.info.p_y_domain == (pushes.p_y.min(), pushes.p_y.max())
+    assert model.info.beta_domain == (pushes.beta.min(), pushes.beta.max())
+    assert model.info.model_id == model.info.model_hash[:12]
+
+
+def test_the_fitted_cone_finds_the_slider_that_made_the_pushes(pushes: PushSet) -> None:
+    slider = fitted_cone(pushes).slider
+    assert slider.friction_pusher == pytest.approx(0.3, abs=0.03)
+    assert slider.support_radius == pytest.approx(0.0348, abs=5e-4)
