@@ -57,7 +57,7 @@ class Plant:
         self._world.reset(object_pose, tip_position)
         self._driver.reset()
         self._schedule.reset()
-        self._sensor.reset(seed)
+        self._sensor.reset(np.random.default_rng(seed))
         self._disturbances.clear()
         self._disturb_if_due()
         for late in range(self._latency, -1, -self._substeps):

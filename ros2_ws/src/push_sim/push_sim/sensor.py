@@ -35,9 +35,9 @@ class Sensor:
         self._random = np.random.default_rng()
         self._under_way: deque[Observation] = deque()
 
-    def reset(self, seed: int) -> None:
-        """Forgets all exposures and draws the noise of a seed from now on."""
-        self._random = np.random.default_rng(seed)
+    def reset(self, random: np.random.Generator) -> None:
+        """Forgets all exposures; noise is drawn from this source from now on."""
+        self._random = random
         self._under_way.clear()
 
     def expose(self, time: float, object_pose: Array, tip_position: Array) -> None:
