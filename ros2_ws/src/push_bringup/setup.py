@@ -1,19 +1,22 @@
-from glob import glob
+from pathlib import Path
 
 from setuptools import find_packages, setup
 
 setup(
     name='push_bringup',
     version='0.1.0',
-    description='The cell as a whole: one parameter file, the cell command that runs a node graph, the launch file and the benchmarks.',
+    description=(
+        'The cell as a whole: one parameter file, the cell command that runs a node graph, '
+        'the launch file and the benchmarks.'
+    ),
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/push_bringup']),
         ('share/push_bringup', ['package.xml']),
-        ('share/push_bringup/config', glob('config/*')),
-        ('share/push_bringup/launch', glob('launch/*')),
+        ('share/push_bringup/config', [str(path) for path in Path('config').glob('*.yaml')]),
+        ('share/push_bringup/launch', [str(path) for path in Path('launch').glob('*.py')]),
     ],
     install_requires=['setuptools'],
     extras_require={'test': ['pytest']},

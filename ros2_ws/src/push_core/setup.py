@@ -3,7 +3,10 @@ from setuptools import find_packages, setup
 setup(
     name='push_core',
     version='0.1.0',
-    description='The physics every part of the cell shares: frames, slider, limit surface, motion cone, tracks, actuator, safety limits. numpy only.',
+    description=(
+        'The physics every part of the cell shares: frames, slider, limit surface, motion '
+        'cone, tracks, actuator, safety limits. numpy only.'
+    ),
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed']},

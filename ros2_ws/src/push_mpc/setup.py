@@ -3,7 +3,10 @@ from setuptools import find_packages, setup
 setup(
     name='push_mpc',
     version='0.1.0',
-    description='The controllers: nominal plan, tabulated model, delay predictor and the quadratic program solved every 10 ms.',
+    description=(
+        'The controllers: nominal plan, tabulated model, delay predictor and the quadratic '
+        'program solved every 10 ms.'
+    ),
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed']},

