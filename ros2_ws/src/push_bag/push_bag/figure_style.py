@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 # Okabe and Ito's colours, which colour-blind readers tell apart
 BLUE, ORANGE, GREEN, RED = '#0072b2', '#e69f00', '#009e73', '#d55e00'
-INK, GREY, FAINT = '#1f2933', '#8a94a0', '#e4e8ec'
+INK, GREY, PALE, FAINT = '#1f2933', '#8a94a0', '#c3cad1', '#e4e8ec'
+LOW_TO_HIGH = ((0.0, '#2b6cb0'), (0.5, '#b569a8'), (1.0, '#d7301f'))
 MOST_POINTS = 6000  # of one series; a minute at 100 Hz is drawn in full
 
 FONT = {'family': 'system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif', 'size': 13}
@@ -29,7 +30,7 @@ def styled(figure: go.Figure, height: int, **layout: Any) -> go.Figure:
         template='none',
         height=height,
         font=FONT | {'color': INK},
-        margin={'l': 70, 'r': 20, 't': 40, 'b': 50},
+        margin={'l': 70, 'r': 20, 't': 64, 'b': 50},
         paper_bgcolor='white',
         plot_bgcolor='white',
         legend={'orientation': 'h', 'y': 1.0, 'yanchor': 'bottom', 'x': 0.0},

@@ -3,7 +3,7 @@
 import numpy as np
 import plotly.graph_objects as go
 
-from push_bag.figure_style import FAINT, GREY, INK, RED, styled, thinned
+from push_bag.figure_style import GREY, INK, LOW_TO_HIGH, PALE, RED, styled, thinned
 from push_bag.series import Disturbance, Floats, Reference
 from push_bag.tracking import Tracking
 
@@ -57,8 +57,7 @@ def _path(tracking: Tracking) -> go.Scatter:
             'color': error,
             'cmin': 0.0,
             'cmax': max(float(error.max(initial=0.0)), LEAST_COLOUR_RANGE),
-            'colorscale': 'Plasma',
-            'reversescale': True,
+            'colorscale': LOW_TO_HIGH,
             'colorbar': {'title': {'text': 'tracking error [mm]', 'side': 'right'}, 'len': 0.8},
         },
     )
@@ -76,7 +75,7 @@ def _outlines(tracking: Tracking, side: float) -> go.Scatter:
         mode='lines',
         name='outline of the object',
         hoverinfo='skip',
-        line={'color': FAINT, 'width': 1.5},
+        line={'color': PALE, 'width': 1.2},
     )
 
 

@@ -10,7 +10,18 @@ from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled, t
 from push_bag.series import Floats, Reference, RunSeries
 from push_bag.tracking import Tracking, reference_times
 
-ROWS = ('error [mm]', 'heading [deg]', 'p_y [mm]', 'gap [mm]', 'v_n [mm/s]', 'v_t [mm/s]')
+# title of each row, and values that its axis shows in any case: noise shall look like noise
+ROWS = (
+    ('error [mm]', (0.0, 1.0)),
+    ('heading error [deg]', (-1.0, 1.0)),
+    ('p_y [mm]', (-5.0, 5.0)),
+    ('gap [mm]', (-0.1, 1.0)),
+    ('v_n [mm/s]', (0.0, 10.0)),
+    ('v_t [mm/s]', (-10.0, 10.0)),
+)
+NOMINAL = 'nominal'
+# the axes' titles explain the other lines
+LEGEND = ('tracking error', 'cross-track error, left positive', NOMINAL)
 HEIGHT = 1100
 
 
@@ -24,8 +35,10 @@ def time_figure(
     _add_inputs(figure, run)
     _mark_events(figure, run, contact)
     styled(figure, HEIGHT, hovermode='x unified')
-    for row, title in enumerate(ROWS, start=1):
-        figure.update_yaxes(title=title, row=row, col=1)
+    for row, (title, shown) in enumerate(ROWS, start=1):
+        figure.update_yaxes(
+            title=title, autorangeoptions={'include': shown}, nticks=5, row=row, col=1
+        )
     # one shared axis, so that the cursor crosses all rows
     figure.update_traces(xaxis=f'x{len(ROWS)}')
     figure.update_xaxes(title='reference time [s]', row=len(ROWS), col=1)
@@ -44,7 +57,7 @@ def _add_contact(
 ) -> None:
     time = reference_times(run, contact.stamp) if contact.stamp.size else np.zeros(0)
     _line(figure, 3, 'contact offset', time, contact.p_y * 1e3, BLUE)
-    _line(figure, 3, 'nominal', reference.time, reference.p_y * 1e3, INK, 'dot')
+    _line(figure, 3, NOMINAL, reference.time, reference.p_y * 1e3, INK, 'dot')
     _line(figure, 4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
 
 
@@ -55,7 +68,7 @@ def _add_inputs(figure: go.Figure, run: RunSeries) -> None:
         speed = run.state(name)[ticks] * 1e3
         nominal = run.state(f'nominal_{name}')[ticks] * 1e3
         _line(figure, row, f'commanded {name}', time, speed, BLUE)
-        _line(figure, row, f'nominal {name}', time, nominal, INK, 'dot')
+        _line(figure, row, NOMINAL, time, nominal, INK, 'dot')
     _add_limited(figure, time, run.state('v_n')[ticks] * 1e3, run.state('limited')[ticks])
 
 
@@ -91,5 +104,14 @@ def _line(
 ) -> None:
     x, y = thinned(time, values)
     line = {'color': colour, 'width': 1.5, 'dash': dash}
-    trace = go.Scatter(x=x, y=y, mode='lines', name=name, line=line, hovertemplate='%{y:.2f}')
+    trace = go.Scatter(
+        x=x,
+        y=y,
+        mode='lines',
+        name=name,
+        line=line,
+        hovertemplate='%{y:.2f}',
+        legendgroup=name,
+        showlegend=name in LEGEND and (name != NOMINAL or row == len(ROWS)),
+    )
     figure.add_trace(trace, row=row, col=1)

@@ -25,7 +25,6 @@ def timing_figure(timing: Timing) -> go.Figure:
         figure.update_xaxes(title=f'{name} [ms]', rangemode='tozero', row=1, col=column)
     if (timing.pose_to_command > DEADLINE * 1e3).any():
         _mark(figure, len(panels), DEADLINE * 1e3, 'deadline', RED)
-    figure.update_yaxes(type='log', dtick=1)
     figure.update_yaxes(title='ticks', row=1, col=1)
     return styled(figure, HEIGHT, showlegend=False, bargap=0.05)
 
@@ -41,6 +40,9 @@ def _add_histogram(figure: go.Figure, column: int, times: Floats) -> None:
         hovertemplate='%{x:.2f} ms: %{y}<extra></extra>',
     )
     figure.add_trace(bars, row=1, col=column)
+    # from below one tick to above the highest bar, in decades
+    decades = [-0.2, np.log10(counts.max()) + 0.3]
+    figure.update_yaxes(type='log', dtick=1, range=decades, row=1, col=column)
     _mark(figure, column, float(np.percentile(times, 99.0)), 'p99', RED)
 
 

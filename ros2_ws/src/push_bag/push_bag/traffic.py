@@ -8,7 +8,8 @@ class Traffic:
 
     A publisher numbers its messages from 1. Several publishers may share a topic, and the
     middleware does not say whose a message is, so each number is matched with the publisher whose
-    last number came just before it. Without loss this is exact. What a publisher sent before its
+    last number came just before it; a wrong match moves a loss from one to another and leaves the
+    sum as it is. What a publisher sent before its
     first message arrived here is not lost: nobody was listening yet.
 
     Attributes:

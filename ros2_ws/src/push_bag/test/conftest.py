@@ -39,7 +39,7 @@ class Synthetic:
     """How a synthetic run differs from a perfect one."""
 
     path: object = on_circle
-    duration: float = 2.0
+    duration: float = 1.5
     displaced: object = lambda pose, time: pose
     gap: object = lambda time: 0.0
     command_delay_ns: object = lambda tick: 1_500_000
@@ -156,7 +156,7 @@ class Recorder:
 
 @pytest.fixture
 def record(tmp_path):
-    """Records a synthetic run: `record(duration=2.0, …)` gives its folder."""
+    """Records a synthetic run: `record(duration=1.5, …)` gives its folder."""
     count = 0
 
     def record_run(**changes) -> Path:
@@ -173,3 +173,11 @@ def record(tmp_path):
 def paths():
     """The reference paths that a synthetic run can follow."""
     return {'line': on_line, 'circle': on_circle}
+
+
+@pytest.fixture(scope='session')
+def perfect(tmp_path_factory):
+    """The folder of a run without errors; tests only read it."""
+    folder = tmp_path_factory.mktemp('runs') / 'perfect'
+    Recorder(folder, Synthetic()).record()
+    return folder

@@ -1,0 +1,67 @@
+"""A bag that is missing, cut short or garbage gives one line, or what is left of it."""
+
+import random
+
+import pytest
+from push_bag import info, score_command
+from push_bag.reader import BagReader
+from push_core.errors import InputError
+
+
+@pytest.fixture
+def content(perfect):
+    return BagReader(perfect).path.read_bytes()
+
+
+@pytest.mark.parametrize('main', [info.main, score_command.main], ids=['info', 'score'])
+@pytest.mark.parametrize(
+    ('spoil', 'reason'),
+    [
+        (lambda _: b'', 'ends before its first message'),
+        (lambda whole: whole[:20], 'ends before its first message'),
+        (lambda _: b'time,x,y\n0,1,2\n' * 100, 'is no bag or is damaged'),
+        (lambda whole: whole[:30_000] + b'\0' * 5_000 + whole[35_000:], 'damaged'),
+    ],
+    ids=['empty', 'a header only', 'text', 'overwritten'],
+)
+def test_what_is_not_a_bag_is_one_line_and_status_2(
+    tmp_path, content, capsys, main, spoil, reason
+):
+    path = tmp_path / 'bad.mcap'
+    path.write_bytes(spoil(content))
+    assert main([str(path)]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == ''
+    assert captured.err.count('\n') == 1
+    assert reason in captured.err
+
+
+def test_a_missing_bag_and_an_empty_folder_are_one_line(tmp_path, capsys):
+    assert info.main([str(tmp_path / 'none')]) == 2
+    assert 'does not exist' in capsys.readouterr().err
+    assert info.main([str(tmp_path)]) == 2
+    assert 'holds 0 MCAP files' in capsys.readouterr().err
+
+
+def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, capsys):
+    path = tmp_path / 'cut.mcap'
+    path.write_bytes(content[: len(content) // 2])
+    assert info.main([str(path)]) == 0
+    assert 'unfinished' in capsys.readouterr().out
+    assert score_command.main([str(path)]) == 0
+    assert capsys.readouterr().out.splitlines()[0].split() == ['completed', 'no']
+
+
+def test_damage_anywhere_gives_messages_or_an_input_error(tmp_path, content):
+    """100 files with 8 random bytes changed; nothing but an InputError may come out."""
+    chance = random.Random(0)
+    path = tmp_path / 'damaged.mcap'
+    for _ in range(100):
+        damaged = bytearray(content)
+        for _ in range(8):
+            damaged[chance.randrange(len(damaged))] = chance.randrange(256)
+        path.write_bytes(damaged)
+        try:
+            list(BagReader(path).records())
+        except InputError:
+            continue

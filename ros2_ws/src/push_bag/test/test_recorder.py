@@ -1,0 +1,146 @@
+"""The recorder over real DDS, against a publisher that knows what it sent."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+import rclpy
+from push_bag.cell_topics import CELL_TOPICS
+from push_bag.message_types import message_class
+from push_bag.reader import BagReader
+from push_bag.recorder import open_bag
+from push_bag.recorder_settings import RecorderSettings
+from push_core.errors import InputError
+from rclpy.node import Node
+
+DOMAIN = 62
+CORE = [topic for topic in CELL_TOPICS if topic.core]
+
+
+class Cell(Node):
+    """Publishes the core topics of a cell."""
+
+    def __init__(self):
+        super().__init__('cell')
+        self.outlets = {
+            topic.name: self.create_publisher(
+                message_class(topic.type_name), topic.name, topic.qos
+            )
+            for topic in CORE
+        }
+
+    def send(self, name):
+        outlet = self.outlets[name]
+        outlet.publish(outlet.msg_type())
+
+    def is_heard(self):
+        return all(outlet.get_subscription_count() for outlet in self.outlets.values())
+
+
+@pytest.fixture
+def cell():
+    rclpy.init(domain_id=DOMAIN)
+    node = Cell()
+    yield node
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+@pytest.fixture
+def start():
+    """Starts recorders and ends those that a test left behind."""
+    started = []
+
+    def start_recorder(*parameters, before=()):
+        command = [*before, sys.executable, '-m', 'push_bag.recorder', '--ros-args']
+        process = subprocess.Popen(
+            [*command, *(word for parameter in parameters for word in ('-p', parameter))],
+            env=os.environ | {'ROS_DOMAIN_ID': str(DOMAIN)},
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        started.append(process)
+        return process
+
+    yield start_recorder
+    for process in started:
+        process.kill()
+        process.communicate()
+
+
+def wait_until(condition, seconds=10.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, 'waited in vain'
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM], ids=['SIGINT', 'SIGTERM'])
+def test_every_message_is_recorded_and_a_signal_finishes_the_bag(cell, start, tmp_path, number):
+    folder, facts = tmp_path / 'run', tmp_path / 'facts.json'
+    facts.write_text('{"profile": "irb120", "seed": 3}')
+    recorder = start(f'folder:={folder}', f'facts_file:={facts}', f'attachments:={facts}')
+    wait_until(cell.is_heard)
+    sent = 150
+    for _ in range(sent):
+        for topic in CORE:
+            cell.send(topic.name)
+        time.sleep(0.003)
+    asked = time.monotonic()
+    recorder.send_signal(number)
+    _, errors = recorder.communicate(timeout=10)
+    assert time.monotonic() - asked < 2.0
+    assert recorder.returncode == 0, errors
+    assert re.search(r'recorder: 0 of \d+ messages lost', errors)
+    reader = BagReader(folder)
+    counts = dict.fromkeys((f'/{topic.name}' for topic in CORE), 0)
+    for record in reader.records(counts):
+        counts[record.topic.name] += 1
+        assert record.publish_ns <= record.log_ns < record.publish_ns + 1_000_000_000
+    assert counts == dict.fromkeys(counts, sent)
+    assert reader.facts == {'profile': 'irb120', 'seed': '3'}
+    assert reader.attachments == {'facts.json': facts.read_bytes()}
+    assert reader.finished
+    assert (folder / 'metadata.yaml').exists()
+
+
+def test_a_full_disk_ends_the_recorder_with_status_1_and_one_line(cell, start, tmp_path):
+    recorder = start(f'folder:={tmp_path / "run"}', before=['prlimit', '--fsize=20000'])
+    wait_until(cell.is_heard)
+    while recorder.poll() is None:
+        for topic in CORE:
+            cell.send(topic.name)
+        time.sleep(0.001)
+    errors = recorder.communicate(timeout=10)[1].splitlines()
+    assert recorder.returncode == 1
+    assert 'recording stopped, what was recorded stays readable' in errors[-1]
+    assert sum(1 for _ in BagReader(tmp_path / 'run').records()) > 0
+
+
+def test_a_wrong_parameter_is_one_line_and_status_2(start, tmp_path):
+    recorder = start(f'folder:={tmp_path}')
+    errors = recorder.communicate(timeout=10)[1]
+    assert recorder.returncode == 2
+    assert errors.count('\n') == 1
+    assert 'exists already' in errors
+
+
+@pytest.mark.parametrize(
+    ('settings', 'reason'),
+    [
+        ({}, 'name the new folder'),
+        ({'facts_file': 'none.json'}, 'No such file'),
+        ({'facts_file': __file__}, 'is not JSON'),
+        ({'attachments': 'none.yaml'}, 'No such file'),
+    ],
+    ids=['no folder', 'no facts', 'facts of another kind', 'no attachment'],
+)
+def test_a_wrong_setting_leaves_nothing_behind(tmp_path, settings, reason):
+    folder = str(tmp_path / 'run') if settings else ''
+    with pytest.raises(InputError, match=reason):
+        open_bag(RecorderSettings(folder=folder, **settings))
+    assert list(tmp_path.iterdir()) == []

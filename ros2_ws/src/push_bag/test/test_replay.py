@@ -1,0 +1,64 @@
+"""A bag is published again as it was recorded: bytes, order, timing, quality of service."""
+
+import pytest
+from push_bag.cell_topics import CELL_TOPICS
+from push_bag.qos_text import qos_profile, qos_text
+from push_bag.reader import BagReader, Record, Topic
+from push_bag.replay import in_order, main, play
+from push_core.errors import InputError
+from rclpy.qos import HistoryPolicy, QoSProfile
+
+
+class Clock:
+    """A clock that only sleeping moves."""
+
+    def __init__(self):
+        self.now = 100.0
+
+    def __call__(self):
+        return self.now
+
+    def sleep(self, seconds):
+        self.now += seconds
+
+
+def record(log_ns):
+    return Record(Topic('/a', 'std_msgs/msg/String', '', ''), b'', log_ns, log_ns, 1)
+
+
+@pytest.mark.parametrize('rate', [1.0, 4.0])
+def test_records_are_published_at_their_time_after_the_first(perfect, rate):
+    clock, sent = Clock(), []
+    records = list(in_order(BagReader(perfect).records()))
+    count = play(records, lambda _: sent.append(clock.now), rate, clock, clock.sleep)
+    assert count == len(records)
+    expected = [100.0 + (each.log_ns - records[0].log_ns) * 1e-9 / rate for each in records]
+    assert sent == pytest.approx(expected, abs=1e-6)
+
+
+def test_records_that_polling_mixed_up_come_in_order():
+    times = [5, 3, 8, 6, 2_000_000_000, 9]
+    assert [each.log_ns for each in in_order(map(record, times))] == sorted(times)
+
+
+def test_offered_profiles_survive_the_bag():
+    for topic in CELL_TOPICS:
+        profile = qos_profile(qos_text(topic.qos))
+        for policy in ('reliability', 'durability', 'depth', 'deadline'):
+            assert getattr(profile, policy) == getattr(topic.qos, policy)
+
+
+def test_a_profile_of_unknown_depth_becomes_one_that_can_publish():
+    unknown = qos_text(QoSProfile(history=HistoryPolicy.UNKNOWN))
+    assert qos_profile(unknown).history == HistoryPolicy.KEEP_LAST
+    assert qos_profile('').depth > 0
+
+
+def test_text_that_is_no_profile_is_refused():
+    with pytest.raises(InputError, match='not a list of QoS profiles'):
+        qos_profile('[{history: sometimes}]')
+
+
+def test_a_rate_of_zero_is_refused(perfect, capsys):
+    assert main([str(perfect), '--rate', '0']) == 2
+    assert '--rate must be above 0' in capsys.readouterr().err

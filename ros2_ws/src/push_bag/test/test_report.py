@@ -1,0 +1,56 @@
+"""The report is one file that loads nothing and shows the score."""
+
+import re
+
+import pytest
+from push_bag.report import report_html, write_report
+from push_bag.run_reader import read_run
+from push_bag.score import score_series
+from push_bag.score_command import main
+
+
+@pytest.fixture(scope='module')
+def page(perfect):
+    return write_report(perfect).read_text()
+
+
+def own_markup(page):
+    """The page without the drawing library, which names addresses that it does not load."""
+    return re.sub(r'<script>/\*\*.*?</script>', '', page, count=1, flags=re.DOTALL)
+
+
+def test_the_page_loads_nothing(page):
+    assert len(own_markup(page)) < 1_000_000 < len(page)
+    assert not re.search(r'<(script|img|link|iframe)[^>]*(src|href)=', page[:5_000_000])
+    assert 'http' not in own_markup(page)
+
+
+def test_the_page_is_at_most_6_megabytes(page):
+    assert len(page.encode()) < 6e6
+
+
+def test_the_page_draws_the_lap_the_time_and_the_timing(page):
+    assert {'lap', 'time', 'timing'} <= set(re.findall(r'<div id="(\w+)"', page))
+    assert page.count('Plotly.newPlot(') >= 3
+
+
+def test_the_page_shows_verdict_score_and_facts(page):
+    for words in ('completed', '0.00 mm', '0 of ', 'messages lost', 'irb120', '/object_pose'):
+        assert words in own_markup(page)
+
+
+def test_a_run_that_never_tracked_has_a_report_too(record):
+    run = read_run(record(modes=lambda _tick: 1))
+    assert 'not completed' in report_html(run, score_series(run))
+
+
+def test_facts_cannot_inject_markup(perfect):
+    run = read_run(perfect)
+    run.facts['note'] = '<script>alert(1)</script>'
+    assert '<script>alert' not in report_html(run, score_series(run))
+
+
+def test_score_writes_the_report_where_told(perfect, tmp_path, capsys):
+    assert main([str(perfect), '--html', str(tmp_path / 'page.html')]) == 0
+    assert capsys.readouterr().out.startswith('completed')
+    assert (tmp_path / 'page.html').stat().st_size > 1_000_000
