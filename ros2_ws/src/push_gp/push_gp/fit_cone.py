@@ -11,7 +11,7 @@ from push_gp.analytical_model import AnalyticalModel
 NOMINAL = Slider(friction_pusher=0.3, support_radius=0.0344)
 """Tabulated friction, and the support radius of uniform pressure."""
 
-BELIEF = np.array([0.3, 0.05])
+BELIEF = np.array([0.12, 0.012])
 """Standard deviations of the logarithms of friction and support radius about the nominal."""
 
 MISFIT = 0.1
@@ -23,8 +23,8 @@ LARGEST_CHANGE = 1.0
 def fitted_cone(pushes: PushSet) -> AnalyticalModel:
     """The motion cone that fits the pushes best, its friction and support radius learned.
 
-    With few pushes it stays near the nominal values: least squares with a Gaussian belief about
-    the logarithms of both.
+    With few pushes it stays near the nominal values: robust least squares with a belief about the
+    logarithms of both.
     """
     unit = np.array([1.0, 1.0, 1.0 / HALF_FACE]) * pushes.distance * MISFIT
 
@@ -34,7 +34,8 @@ def fitted_cone(pushes: PushSet) -> AnalyticalModel:
         return np.concatenate((left.ravel(), logarithms / BELIEF))
 
     bounds = (-LARGEST_CHANGE, LARGEST_CHANGE)
-    return _cone(least_squares(misfit, np.zeros(2), bounds=bounds).x, pushes.distance)
+    found = least_squares(misfit, np.zeros(2), bounds=bounds, loss='soft_l1')
+    return _cone(found.x, pushes.distance)
 
 
 def _cone(logarithms: Array, distance: float) -> AnalyticalModel:

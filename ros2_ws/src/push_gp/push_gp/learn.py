@@ -10,7 +10,7 @@ from push_gp.fit import fit
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel, residuals
 from push_gp.mean_function import MeanFunction, ZeroMean
-from push_gp.prior import CONE_MEAN, ZERO_MEAN, priors
+from push_gp.prior import OVER_CONE, OVER_ZERO, priors
 
 
 def learned(
@@ -27,10 +27,10 @@ def learned(
         RunError: no hyperparameters explain the pushes.
     """
     mean_function = _mean_function(pushes, mean)
-    centres = CONE_MEAN if isinstance(mean_function, AnalyticalModel) else ZERO_MEAN
+    beliefs = OVER_CONE if isinstance(mean_function, AnalyticalModel) else OVER_ZERO
     found = []
     left = residuals(pushes, mean_function)
-    for name, outputs, prior in zip(OUTPUTS, left, priors(centres, pushes.distance), strict=True):
+    for name, outputs, prior in zip(OUTPUTS, left, priors(beliefs, pushes.distance), strict=True):
         found.append(fit(pushes.inputs, outputs, prior))
         progress(name)
     return GpModel.conditioned(pushes, mean_function, found)

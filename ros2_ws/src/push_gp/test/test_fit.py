@@ -7,10 +7,10 @@ from push_gp.hyperparameters import Hyperparameters
 from push_gp.kernel import correlation, squared_differences
 from push_gp.learn import learned
 from push_gp.likelihood import MarginalLikelihood
-from push_gp.prior import ZERO_MEAN, priors
+from push_gp.prior import OVER_ZERO, priors
 
 TRUE = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
-PRIOR = priors(ZERO_MEAN, 0.004)[0]
+PRIOR = priors(OVER_ZERO, 0.004)[0]
 
 
 def sample(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -50,7 +50,9 @@ def test_a_handful_of_pushes_gives_a_sane_model(pushes: PushSet, count: int, mea
     info = learned(pushes.take(np.arange(count)), mean).info
     assert (info.lengthscales[:, 0] > 0.005).all()
     assert (info.lengthscales[:, 0] < 0.2).all()
-    assert (info.noise_std < info.signal_std).all()
+    assert (info.signal_std < [5e-3, 5e-3, 0.1]).all()
+    assert (info.noise_std > [4e-5, 4e-5, 1e-3]).all()
+    assert (info.noise_std < [5e-4, 5e-4, 1e-2]).all()
 
 
 def test_repeated_pushes_are_no_trouble(pushes: PushSet) -> None:

@@ -187,8 +187,6 @@ def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> Non
     [
         ('model:=none.npz', 'No such file'),
         ('speed:=3.0', "unknown parameter 'speed'"),
-        ('max_points:=0', 'max_points is 0'),
-        ('slider.side:=wide', 'takes float'),
         ('distance:=-0.004', 'distance is -0.004'),
     ],
 )

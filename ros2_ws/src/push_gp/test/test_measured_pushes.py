@@ -23,17 +23,13 @@ def push_frame_nmse(model: PushModel, pushes: PushSet) -> float:
 
 
 @pytest.mark.parametrize(('points', 'worst'), [(100, 0.052), (200, 0.050), (500, 0.042)])
-def test_the_gp_tells_held_out_pushes_as_well_as_published(
+def test_the_gp_tells_held_out_pushes_as_well_as_published_and_knows_how_well(
     measured: PushSet, points: int, worst: float
 ) -> None:
     training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
-    assert push_frame_nmse(learned(training), rest) <= worst
-
-
-@pytest.mark.parametrize('points', [100, 200, 500])
-def test_its_95_percent_intervals_hold_92_to_97_percent(measured: PushSet, points: int) -> None:
-    training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
-    assert 0.92 <= calibration(learned(training), rest).coverage_95.mean() <= 0.97
+    model = learned(training)
+    assert push_frame_nmse(model, rest) <= worst
+    assert 0.92 <= calibration(model, rest).coverage_95.mean() <= 0.97
 
 
 def test_the_fitted_limit_surface_has_the_published_error_in_both_frames(
@@ -51,7 +47,7 @@ def test_over_the_cone_a_handful_of_pushes_is_enough(
     measured: PushSet, points: int, median: float
 ) -> None:
     found = []
-    for seed in range(10):
+    for seed in range(5):
         training, rest = split(measured, nested_rows(measured, points, seed))
         found.append(push_frame_nmse(learned(training, 'analytical'), rest))
     assert np.median(found) <= median

@@ -91,6 +91,7 @@ def test_whatever_changes_an_answer_changes_the_hash(
 ) -> None:
     displacement = pushes.displacement.copy()
     displacement[3, 1] += 1e-9
+    moved = replace(pushes, displacement=displacement)
     hyperparameters = [process.hyperparameters for process in model.processes]
     louder = [hyperparameters[0], hyperparameters[1], replace(hyperparameters[2], noise_std=0.01)]
     hashes = {
@@ -98,9 +99,7 @@ def test_whatever_changes_an_answer_changes_the_hash(
         for each in (
             model,
             model.extended(more_pushes),
-            GpModel.conditioned(
-                replace(pushes, displacement=displacement), ZeroMean(), hyperparameters
-            ),
+            GpModel.conditioned(moved, ZeroMean(), hyperparameters),
             GpModel.conditioned(pushes, ZeroMean(), louder),
             GpModel.conditioned(pushes, AnalyticalModel(), hyperparameters),
             AnalyticalModel(),
