@@ -1,1 +1,1 @@
-"""The cell as a whole: one parameter file, the cell command that runs a node graph, the launch file and the benchmarks."""
+"""The cell as a whole: one parameter file, the command that runs it, the benchmarks."""

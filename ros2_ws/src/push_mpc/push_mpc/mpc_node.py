@@ -3,11 +3,9 @@
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
-from push_core.actuator import ACTUATORS
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_node import qos
 from push_node.diagnostics import Reporter
@@ -21,7 +19,7 @@ from std_srvs.srv import Trigger
 from push_mpc import conversions
 from push_mpc.controller import Controller, Mode, Tick
 from push_mpc.model_client import ModelClient
-from push_mpc.node_settings import MpcSettings
+from push_mpc.node_settings import mpc_settings
 from push_mpc.planning import planned
 from push_mpc.pose_pair import PosePair
 from push_mpc.recorder_watch import RecorderWatch
@@ -36,7 +34,7 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def __init__(self) -> None:
         super().__init__('mpc_node')
-        self._settings = declared(self, _defaults(override(self, 'profile', 'irb120')))
+        self._settings = declared(self, mpc_settings(override(self, 'profile', 'irb120')))
         self._controller = Controller(
             self._settings, self._settings.slider, planned(self._settings)
         )
@@ -171,12 +169,6 @@ class MpcNode(Node):  # type: ignore[misc]
         reason = self._controller.stop_reason if stopped else self._model.problem
         values = {'model': self._controller.model_id, 'ticks': str(self._tick_count)}
         self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
-
-
-def _defaults(profile: str) -> MpcSettings:
-    """The settings that a profile brings; an unknown one is refused where it is declared."""
-    actuator = ACTUATORS.get(profile, ACTUATORS['irb120'])
-    return replace(MpcSettings(), actuator=actuator)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,6 +1,6 @@
 """Parameters of the controller node: those of the controller, and what it shall track."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from push_core.actuator import ACTUATORS
 from push_core.settings import nested, setting, validate
@@ -35,3 +35,9 @@ class MpcSettings(ControllerSettings):
 
     def __post_init__(self) -> None:
         validate(self)
+
+
+def mpc_settings(profile: str) -> MpcSettings:
+    """The node's defaults with the robot of a profile; validation names an unknown one."""
+    actuator = ACTUATORS.get(profile, MpcSettings().actuator)
+    return replace(MpcSettings(), profile=profile, actuator=actuator)

@@ -12,6 +12,7 @@ from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
+_LONGEST_WAIT = 0.1  # [s]
 _stop_requested = False
 
 
@@ -31,13 +32,14 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
     Returns:
         Exit status: 0 stopped on request, 1 the node failed, 2 a parameter was wrong.
     """
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, _on_signal)
+    stop_on_signals()
     try:
         _init(argv)
         node = _made(make_node)
         try:
-            _spin(node)
+            spinner = Spinner(node)
+            while spinner.once():
+                pass
         finally:
             node.destroy_node()
     except (PushError, OSError) as error:
@@ -48,20 +50,24 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
     return 0
 
 
-def spin_until(node: Node, finished: Callable[[], bool]) -> None:
-    """Spins a node of a command until a condition holds or a stop is requested."""
-    executor = EventsExecutor()
-    executor.add_node(node)
-    try:
-        # the only way in which this executor neither burns the core nor ignores signals
-        while not (_stop_requested or finished()):
-            executor.spin_once(timeout_sec=0.1)
-    finally:
-        executor.remove_node(node)
+class Spinner:
+    """Spins one node, in the only way in which this executor heeds signals and spares the core."""
+
+    def __init__(self, node: Node) -> None:
+        self._executor = EventsExecutor()
+        self._executor.add_node(node)
+
+    def once(self) -> bool:
+        """Handles one event, or waits a moment for one; False once a stop was requested."""
+        if not _stop_requested:
+            self._executor.spin_once(timeout_sec=_LONGEST_WAIT)
+        return not _stop_requested
 
 
-def _spin(node: Node) -> None:
-    spin_until(node, lambda: False)
+def stop_on_signals() -> None:
+    """Lets SIGINT and SIGTERM request a stop instead of ending the process at once."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, _on_signal)
 
 
 def _init(argv: Sequence[str] | None) -> None:

@@ -1,0 +1,164 @@
+"""`ros2 run push_bringup cell`: one recorded and scored run of the whole cell."""
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Sequence
+from datetime import datetime
+from pathlib import Path
+
+import yaml
+from push_bag.report import write_report
+from push_bag.score import write_score
+from push_bag.score_table import score_table
+from push_core.command_line import Parser, run_command
+from push_core.errors import InputError, RunError
+from push_core.tracks import TRACKS
+from push_gp.model_source import ANALYTICAL, model_named
+from push_mpc.planning import planned
+from push_sim.settings import PROFILES
+
+from push_bringup.cell_parameters import parameter_file, resolved
+from push_bringup.default_model import default_model
+from push_bringup.in_process_run import recorded_in_process
+from push_bringup.node_graph import run_graph
+from push_bringup.request import Request
+from push_bringup.run_folder import keep_logs, new_run_folder, write_inputs
+
+EPILOG = """examples:
+  ros2 run push_bringup cell                                   the 8-track at 80 mm/s
+  ros2 run push_bringup cell --track square --speed 0.05 --controller analytical
+  ros2 run push_bringup cell --mode inprocess -p delay_compensation:=false
+  ros2 run push_bringup cell -p mpc_node.weights.contact:=100.0 -o /tmp/runs
+
+The last line printed is the folder of the run: bag, score.json, report.html, logs.
+Exit status: 0 the lap was completed, 1 it was not, 2 the command was wrong.
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the cell once."""
+    return run_command(parser(), work, argv)
+
+
+def parser() -> Parser:
+    """The command line."""
+    parser = Parser('Pushes the square along a track, records the run and scores it.', EPILOG)
+    tracks = ', '.join(TRACKS)
+    parser.add_argument('--track', default='eight', help=f'{tracks} or a .csv of x, y [m]')
+    parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
+    parser.add_argument('--controller', choices=('gp', 'analytical'), default='gp')
+    parser.add_argument(
+        '--model', type=Path, metavar='FILE', help='for gp; default: 200 simulated pushes'
+    )
+    parser.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
+    parser.add_argument(
+        '--perturb',
+        choices=('none', 'normal', 'tangential'),
+        default='none',
+        help='displacement before the start: 30 mm off the pusher, or 20 mm along the face',
+    )
+    parser.add_argument('--laps', type=int, default=1, help='rounds of a closed track')
+    parser.add_argument('--seed', type=int, default=0, help='of all that is drawn at random')
+    parser.add_argument(
+        '--mode',
+        choices=('realtime', 'lockstep', 'inprocess'),
+        default='realtime',
+        help='wall clock; nodes in step, repeatable; one process, fastest',
+    )
+    parser.add_argument(
+        '-p',
+        '--param',
+        action='append',
+        default=[],
+        metavar='NAME:=VALUE',
+        help='any parameter of a node, as NAME or NODE.NAME; repeatable',
+    )
+    parser.add_argument('--namespace', default='', help='of the node graph')
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=Path('runs'),
+        metavar='DIR',
+        help='the run gets a new folder in it (default %(default)s)',
+    )
+    return parser
+
+
+def work(arguments: argparse.Namespace) -> int:
+    """Checks everything that can be checked, then runs, scores and reports.
+
+    Raises:
+        InputError: the request cannot be carried out.
+        RunError: the run could not be recorded or scored.
+    """
+    request = _request(arguments)
+    folder = new_run_folder(request, datetime.now().astimezone())
+    with tempfile.TemporaryDirectory(prefix='push_cell_') as scratch:
+        inputs = Path(scratch)
+        parameters = resolved(request, parameter_file(), folder, inputs)
+        model = model_named(request.model, parameters.mpc.slider)
+        planned(parameters.mpc)
+        write_inputs(request, parameters, inputs)
+        if request.mode == 'inprocess':
+            reason = recorded_in_process(parameters, model)
+        else:
+            reason = run_graph(inputs / 'params.yaml', request, inputs)
+        keep_logs(inputs, folder)
+    return _finish(folder, reason)
+
+
+def _request(arguments: argparse.Namespace) -> Request:
+    if arguments.model and arguments.controller == 'analytical':
+        raise InputError('--model is for --controller gp; the analytical one needs none')
+    if not arguments.speed > 0.0:
+        raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
+    overrides = dict(_override(text) for text in arguments.param)
+    return Request(
+        track=arguments.track,
+        speed=arguments.speed,
+        controller=arguments.controller,
+        model=_model(arguments),
+        profile=arguments.profile,
+        perturb=arguments.perturb,
+        laps=arguments.laps,
+        seed=arguments.seed,
+        mode=arguments.mode,
+        output=arguments.output,
+        namespace=arguments.namespace.strip('/'),
+        overrides=overrides,
+    )
+
+
+def _model(arguments: argparse.Namespace) -> str:
+    if arguments.controller == 'analytical':
+        return ANALYTICAL
+    return str((arguments.model or default_model()).resolve())
+
+
+def _override(text: str) -> tuple[str, object]:
+    name, separator, value = text.partition(':=')
+    if not (name and separator and value):
+        raise InputError(f'-p {text}: write it as NAME:=VALUE')
+    try:
+        return name, yaml.safe_load(value)
+    except yaml.YAMLError as error:
+        raise InputError(f'-p {text}: the value is not a number, word or true/false') from error
+
+
+def _finish(folder: Path, reason: str) -> int:
+    """Scores what was recorded, says how it went, and ends with the folder's path."""
+    if not folder.is_dir():
+        raise RunError(f'the cell did not get as far as recording: {reason}')
+    score = write_score(folder)
+    write_report(folder)
+    sys.stdout.write(score_table(score))
+    if not score['completed']:
+        sys.stderr.write(f'cell: the run was not completed: {reason or "see the report"}\n')
+    sys.stdout.write(f'{folder}\n')
+    return 0 if score['completed'] and not reason else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

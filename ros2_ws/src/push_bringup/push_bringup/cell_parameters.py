@@ -1,0 +1,131 @@
+"""The parameters of all nodes for one run: the file, the command line, the overrides; checked."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import yaml
+from ament_index_python.packages import get_package_share_directory
+from push_bag.recorder_settings import RecorderSettings
+from push_core.errors import InputError
+from push_core.settings import flatten, replaced
+from push_gp.server_settings import ServerSettings
+from push_mpc.node_settings import MpcSettings, mpc_settings
+from push_sim.node_settings import NodeSettings, node_settings
+
+from push_bringup.request import Request
+
+NODES = ('sim_node', 'gp_server', 'mpc_node', 'recorder')
+
+
+@dataclass(frozen=True)
+class CellParameters:
+    """The settings of every node, resolved."""
+
+    sim: NodeSettings
+    gp: ServerSettings
+    mpc: MpcSettings
+    recorder: RecorderSettings
+
+    def by_node(self) -> dict[str, dict[str, Any]]:
+        """Node name to parameters by dotted name."""
+        settings = (self.sim, self.gp, self.mpc, self.recorder)
+        return {
+            node: {name: value for name, (value, _) in flatten(own).items()}
+            for node, own in zip(NODES, settings, strict=True)
+        }
+
+    def as_yaml(self) -> str:
+        """A ROS parameter file that holds every value."""
+        blocks = {
+            f'/**/{node}': {'ros__parameters': values} for node, values in self.by_node().items()
+        }
+        return yaml.safe_dump(blocks, sort_keys=False)
+
+
+def parameter_file() -> Path:
+    """The parameter file of the cell, as installed."""
+    return Path(get_package_share_directory('push_bringup')) / 'config' / 'cell.yaml'
+
+
+def resolved(request: Request, defaults: Path, folder: Path, inputs: Path) -> CellParameters:
+    """The parameters of one run.
+
+    Args:
+        request: what the user asked for.
+        defaults: parameter file of the cell.
+        folder: of the run, for the recorder.
+        inputs: folder with the files that the recorder keeps.
+
+    Raises:
+        InputError: an unknown parameter, or a value out of range.
+    """
+    values = _from_file(defaults)
+    for node, changes in _from_request(request, folder, inputs).items():
+        values[node].update(changes)
+    return _checked(values, request.overrides)
+
+
+def _from_file(path: Path) -> dict[str, dict[str, Any]]:
+    blocks = yaml.safe_load(path.read_text(encoding='utf-8'))
+    return {node: dict(blocks.get(f'/**/{node}', {}).get('ros__parameters', {})) for node in NODES}
+
+
+def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dict[str, Any]]:
+    mode = 'lockstep' if request.mode == 'inprocess' else request.mode
+    common = {'profile': request.profile, 'mode': mode}
+    attachments = [inputs / 'params.yaml']
+    if request.controller == 'gp':
+        attachments.append(Path(request.model))
+    return {
+        'sim_node': {**common, 'seed': request.seed, 'perturbation.kind': request.perturb},
+        'gp_server': {'model': request.model},
+        'mpc_node': {
+            **common,
+            'track': request.track,
+            'speed': request.speed,
+            'laps': request.laps,
+            'controller': request.controller,
+        },
+        'recorder': {
+            'folder': str(folder),
+            'facts_file': str(inputs / 'facts.json'),
+            'attachments': ','.join(str(path) for path in attachments),
+        },
+    }
+
+
+def _checked(values: dict[str, dict[str, Any]], overrides: Mapping[str, object]) -> CellParameters:
+    defaults = _defaults(values)
+    for name, value in overrides.items():
+        for node, key in _owners(defaults, name):
+            values[node][key] = value
+    changed = _defaults(values)
+    settings = [replaced(changed[node], values[node]) for node in NODES]
+    return CellParameters(*settings)
+
+
+def _defaults(values: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    """Each node's own defaults, which depend on its profile."""
+    return {
+        'sim_node': node_settings(str(values['sim_node'].get('profile', 'irb120'))),
+        'gp_server': ServerSettings(),
+        'mpc_node': mpc_settings(str(values['mpc_node'].get('profile', 'irb120'))),
+        'recorder': RecorderSettings(),
+    }
+
+
+def _owners(defaults: Mapping[str, Any], name: str) -> list[tuple[str, str]]:
+    """The nodes that have a parameter: all, or the one that the name begins with."""
+    node, _, rest = name.partition('.')
+    if node in NODES:
+        return [(node, rest)]
+    owners = [(node, name) for node in NODES if name in flatten(defaults[node])]
+    if not owners:
+        raise InputError(f'unknown parameter {name!r}; known: {_known(defaults)}')
+    return owners
+
+
+def _known(defaults: Mapping[str, Any]) -> str:
+    return ', '.join(sorted({name for node in NODES for name in flatten(defaults[node])}))

@@ -1,0 +1,81 @@
+"""A run in one process: the same plant and controller, without DDS, faster than real time."""
+
+import time
+from collections.abc import Callable
+
+from push_gp.model import PushModel
+from push_mpc.controller import Controller, Mode, Tick
+from push_mpc.conversions import seconds
+from push_mpc.model_client import model_grid
+from push_mpc.planning import planned
+from push_mpc.surrogate import Table
+from push_sim.plant import Observation, Plant
+
+from push_bringup.cell_parameters import CellParameters
+
+OnTick = Callable[[Observation, Tick, float], None]
+
+
+class InProcessCell:
+    """Plant and controller in one loop; gives the trajectory that lockstep gives.
+
+    Attributes:
+        plant: what is pushed.
+        controller: what pushes.
+    """
+
+    def __init__(self, parameters: CellParameters, model: PushModel) -> None:
+        mpc = parameters.mpc
+        self.plant = Plant(parameters.sim, mpc.slider)
+        self.controller = Controller(mpc, mpc.slider, planned(mpc))
+        self._slider = mpc.slider
+        self._seed = parameters.sim.seed
+        table = tabulated(model, mpc.slider.side)
+        self.controller.use(self.controller.prepared(table, model.info.model_id))
+
+    def run(self, on_tick: OnTick) -> str:
+        """Pushes once along the track.
+
+        Args:
+            on_tick: told of every observation, what the controller made of it, and the
+                milliseconds that this took.
+
+        Returns:
+            Why it stopped before the end, empty if it did not.
+        """
+        observation = self._reset()
+        origin = nanoseconds(observation.time)
+        self.controller.arm()
+        while self.controller.mode not in (Mode.DONE, Mode.STOPPED):
+            started = time.perf_counter()
+            tick = self.controller.step(
+                observation.object_pose,
+                observation.tip_position,
+                seconds(nanoseconds(observation.time) - origin),
+                seconds(nanoseconds(self.plant.time) - origin),
+            )
+            on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
+            self.plant.command(tick.velocity, self.plant.time)
+            observation = self.plant.step()
+        return self.controller.stop_reason
+
+    def close(self) -> None:
+        """Frees the physics server."""
+        self.plant.close()
+
+    def _reset(self) -> Observation:
+        start = self.controller.plan.state[0]
+        tip = self._slider.tip_position(start[:3], start[3])
+        return self.plant.reset(start[:3], tip, self._seed)
+
+
+def tabulated(model: PushModel, side: float) -> Table:
+    """The table that the controller would make of the server's answers."""
+    grid = model_grid(model.info, side)
+    mean, jacobian = model.evaluate(*grid.points())
+    return Table(grid, mean / model.distance, jacobian / model.distance)
+
+
+def nanoseconds(plant_time: float) -> int:
+    """What the topics call a plant time [s], in whole nanoseconds."""
+    return round(plant_time * 1e9)

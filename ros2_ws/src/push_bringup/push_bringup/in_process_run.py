@@ -1,0 +1,39 @@
+"""A run in one process with its bag, as `cell --mode inprocess` makes it."""
+
+from push_bag.recorder import open_bag
+from push_gp.model import PushModel
+from push_mpc.controller import Tick
+from push_sim.plant import Observation
+from tqdm import tqdm
+
+from push_bringup.cell_parameters import CellParameters
+from push_bringup.in_process import InProcessCell
+from push_bringup.in_process_record import InProcessRecord
+
+
+def recorded_in_process(parameters: CellParameters, model: PushModel) -> str:
+    """Pushes once along the track and records it.
+
+    Returns:
+        Why it stopped before the end, empty if it did not.
+
+    Raises:
+        RunError: the bag cannot be written.
+    """
+    cell = InProcessCell(parameters, model)
+    duration = cell.controller.plan.duration
+    with (
+        open_bag(parameters.recorder) as writer,
+        tqdm(total=round(duration, 2), unit='s', desc='pushing', disable=None) as bar,
+    ):
+        record = InProcessRecord(writer, cell.plant, cell.controller)
+        record.head(parameters.mpc, model.info)
+
+        def on_tick(observation: Observation, tick: Tick, tick_ms: float) -> None:
+            record.tick(observation, tick, tick_ms)
+            bar.update(min(max(tick.reference_time, bar.n), duration) - bar.n)
+
+        try:
+            return cell.run(on_tick)
+        finally:
+            cell.close()

@@ -1,0 +1,53 @@
+"""A run of the real node graph: four processes over DDS."""
+
+import time
+from pathlib import Path
+
+from push_core.errors import RunError
+from push_node.spin import stop_on_signals
+
+from push_bringup.cell_lock import CellLock
+from push_bringup.conductor import Conductor
+from push_bringup.processes import Processes
+from push_bringup.request import Request
+
+COMING_TO_REST = 0.3  # [s]: watchdog, braking, and the last messages on their way
+
+
+def run_graph(params: Path, request: Request, logs: Path) -> str:
+    """Starts the nodes, pushes once along the track, stops them cleanly.
+
+    Args:
+        params: resolved parameter file.
+        request: whose namespace and seed count here.
+        logs: folder for what the nodes say.
+
+    Returns:
+        Why the run ended before its end, empty if it did not.
+
+    Raises:
+        RunError: the cell did not get ready.
+        KeyboardInterrupt: a stop was requested.
+    """
+    stop_on_signals()
+    with (
+        CellLock(request.namespace),
+        Processes(params, request.namespace, logs) as processes,
+    ):
+        processes.start()
+        conductor = Conductor(request.namespace, processes)
+        try:
+            return conductor.run(request.seed)
+        except RunError as error:
+            return str(error)
+        finally:
+            _stop_in_order(processes)
+            conductor.close()
+
+
+def _stop_in_order(processes: Processes) -> None:
+    """The controller first; the recorder last, when the plant is at rest."""
+    processes.stop(['mpc_node'])
+    time.sleep(COMING_TO_REST)
+    processes.stop(['sim_node', 'gp_server'])
+    processes.stop(['recorder'])

@@ -1,0 +1,101 @@
+"""The folder of one run: its name, what goes into it, and never half of it."""
+
+import json
+import os
+import platform
+import shutil
+import subprocess
+from datetime import datetime, timezone
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from push_core.errors import InputError
+
+from push_bringup.cell_parameters import CellParameters
+from push_bringup.request import Request
+
+_RECORDED_VERSIONS = ('numpy', 'scipy', 'osqp', 'pybullet', 'mcap', 'rclpy')
+
+
+def new_run_folder(request: Request, now: datetime) -> Path:
+    """A name for the run in the output folder; the recorder makes the folder itself.
+
+    Raises:
+        InputError: the output folder cannot be written to.
+    """
+    output = request.output
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f'{output}: {error.strerror}; name another folder with -o') from error
+    if not os.access(output, os.W_OK):
+        raise InputError(f'{output}: not writable; name another folder with -o')
+    track = Path(request.track).stem
+    name = f'{now:%Y%m%d-%H%M%S}_{track}_{request.controller}_{1e3 * request.speed:.0f}mms'
+    return _unused(output / name)
+
+
+def _unused(folder: Path) -> Path:
+    number, found = 1, folder
+    while found.exists():
+        number += 1
+        found = folder.with_name(f'{folder.name}_{number}')
+    return found
+
+
+def write_inputs(request: Request, parameters: CellParameters, inputs: Path) -> None:
+    """Writes the files that the recorder keeps with the run into a folder."""
+    (inputs / 'params.yaml').write_text(parameters.as_yaml(), encoding='utf-8')
+    (inputs / 'facts.json').write_text(json.dumps(facts(request), indent=1), encoding='utf-8')
+
+
+def keep_logs(inputs: Path, folder: Path) -> None:
+    """Puts what the nodes said beside the bag."""
+    logs = sorted(inputs.glob('*.log'))
+    if logs and folder.is_dir():
+        (folder / 'log').mkdir()
+        for log in logs:
+            shutil.copyfile(log, folder / 'log' / log.name)
+
+
+def facts(request: Request) -> dict[str, str]:
+    """What is needed to repeat the run, beside parameters and model file."""
+    versions = {name: _version(name) for name in _RECORDED_VERSIONS}
+    return {
+        'track': request.track,
+        'speed': f'{request.speed:g}',
+        'controller': request.controller,
+        'profile': request.profile,
+        'perturb': request.perturb,
+        'laps': str(request.laps),
+        'seed': str(request.seed),
+        'mode': request.mode,
+        'started': datetime.now(timezone.utc).isoformat(timespec='seconds'),
+        'machine': f'{platform.machine()}, {os.cpu_count()} cores, {platform.platform()}',
+        'python': platform.python_version(),
+        'versions': json.dumps(versions),
+        'git_revision': _git_revision(),
+    }
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return 'unknown'
+
+
+def _git_revision() -> str:
+    command = [
+        'git',
+        '-C',
+        str(Path(__file__).resolve().parent),
+        'describe',
+        '--always',
+        '--dirty',
+    ]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=5, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return 'unknown'
+    return done.stdout.strip() or 'unknown'
