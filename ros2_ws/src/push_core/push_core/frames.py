@@ -22,9 +22,11 @@ def rotation(theta: float) -> Array:
 
 def to_world(pose: Array, point: Array) -> Array:
     """World position (2,) [m] of a point (2,) given in the body frame of `pose` (3,)."""
-    return np.asarray(pose[:2]) + rotation(pose[2]) @ np.asarray(point)
+    return np.asarray(pose[:2] + rotation(pose[2]) @ point)
 
 
 def to_body(pose: Array, point: Array) -> Array:
     """Position (2,) [m] in the body frame of `pose` (3,) of a point (2,) given in the world."""
-    return rotation(pose[2]).T @ (np.asarray(point) - np.asarray(pose[:2]))
+    cos, sin = math.cos(pose[2]), math.sin(pose[2])
+    x, y = point[0] - pose[0], point[1] - pose[1]
+    return np.array([cos * x + sin * y, cos * y - sin * x])

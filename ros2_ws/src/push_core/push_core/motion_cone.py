@@ -54,7 +54,7 @@ class MotionCone:
         left, right = (self._edge(p_y, sign) for sign in (1.0, -1.0))
         slides_left = v_t * left[0] > left[1] * v_n
         slides_right = v_t * right[0] < right[1] * v_n
-        return slides_left.astype(float) - slides_right.astype(float)
+        return np.subtract(slides_left, slides_right, dtype=float)
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Displacement rates and their Jacobian.

@@ -85,7 +85,8 @@ class ArcTrack(Track):
         half_turn = 0.5 * curvature * travelled
         chord = travelled * np.sinc(half_turn / math.pi)
         direction = heading + half_turn
-        return chord[:, None] * np.stack([np.cos(direction), np.sin(direction)], axis=-1)
+        unit = np.stack([np.cos(direction), np.sin(direction)], axis=-1)
+        return np.asarray(chord[:, None] * unit)
 
     def _within(self, s: Array) -> tuple[Array, Array, Array, Array]:
         last = self._curvature.size - 1

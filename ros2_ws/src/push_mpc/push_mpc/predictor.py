@@ -5,15 +5,18 @@ object and the model of the robot's lag (a Smith predictor for a nonlinear plant
 """
 
 import math
+from typing import TypeAlias
 
 import numpy as np
-from push_core.actuator import Actuator, ActuatorSettings
+from push_core.actuator import Actuator, ActuatorSettings, Pair
 from push_core.frames import Array
 from push_core.slider import Slider
 
 from push_mpc.surrogate import Table
 
+Pose: TypeAlias = tuple[float, float, float]
 _STEP = 0.01
+_TIME_TOLERANCE = 1e-6
 _CONTACT_GAP = 5e-4
 
 
@@ -55,41 +58,44 @@ class Predictor:
         """
         self._follow(exposure)
         self._ahead.copy_state(self._now)
-        pose, tip, time = np.array(object_pose), np.array(tip), exposure
-        while until - time > 1e-6:
+        pose, place = tuple(object_pose.tolist()), tuple(tip.tolist())
+        time = exposure
+        while until - time > _TIME_TOLERANCE:
             duration = min(_STEP, until - time)
             velocity = self._ahead.advance(time, duration)
-            pose = self._pushed(table, pose, tip, velocity, duration)
-            tip = tip + velocity * duration
+            pose = self._pushed(table, pose, place, velocity, duration)
+            place = (place[0] + velocity[0] * duration, place[1] + velocity[1] * duration)
             time += duration
-        return pose, tip
+        return np.array(pose), np.array(place)
 
     def _follow(self, exposure: float) -> None:
         """Lets the copy of the robot live up to the exposure."""
         if self._time == -math.inf:
             self._time = exposure
-        while exposure - self._time > 1e-6:
+        while exposure - self._time > _TIME_TOLERANCE:
             duration = min(_STEP, exposure - self._time)
             self._now.advance(self._time, duration)
             self._time += duration
 
     def _pushed(
-        self, table: Table, pose: Array, tip: Array, velocity: Array, duration: float
-    ) -> Array:
+        self, table: Table, pose: Pose, tip: Pair, velocity: Pair, duration: float
+    ) -> Pose:
         """The object's pose after the tip moved on; it rests where the tip does not press."""
-        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        x, y, theta = pose
+        cos, sin = math.cos(theta), math.sin(theta)
         v_n = cos * velocity[0] + sin * velocity[1]
-        v_t = -sin * velocity[0] + cos * velocity[1]
-        gap = self._slider.gap(pose, tip)
-        if v_n <= 0.0 or gap > _CONTACT_GAP:
+        along = cos * (tip[0] - x) + sin * (tip[1] - y)
+        if v_n <= 0.0 or along < self._slider.tip_x - _CONTACT_GAP:
             return pose
+        v_t = cos * velocity[1] - sin * velocity[0]
+        p_y = cos * (tip[1] - y) - sin * (tip[0] - x)
         travel = math.hypot(v_n, v_t) * duration
-        p_y = self._slider.contact_offset(pose, tip)
-        x, y, theta = table.rate(p_y, math.atan2(v_n, v_t))
+        dx, dy, turn = table.rate(p_y, math.atan2(v_n, v_t))
         # the heading of the middle of the step makes a circle of an even push
-        cos, sin = (
-            math.cos(pose[2] + 0.5 * theta * travel),
-            math.sin(pose[2] + 0.5 * theta * travel),
+        middle = theta + 0.5 * turn * travel
+        cos, sin = math.cos(middle), math.sin(middle)
+        return (
+            x + travel * (cos * dx - sin * dy),
+            y + travel * (sin * dx + cos * dy),
+            theta + travel * turn,
         )
-        step = np.array([cos * x - sin * y, sin * x + cos * y, theta])
-        return np.asarray(pose + travel * step)

@@ -52,6 +52,7 @@ class Table:
         self._low = np.array([grid.p_y[0], grid.beta[0]])
         self._step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
         self._cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
+        self._axes = (self._low.tolist(), self._step.tolist(), self._cells.tolist())
         self._coefficients = self._fit(mean, jacobian)
 
     def _fit(self, mean: Array, jacobian: Array) -> Array:
@@ -89,11 +90,12 @@ class Table:
 
     def rate(self, p_y: float, beta: float) -> tuple[float, float, float]:
         """Displacement rates at one point, for the predictor's loop."""
-        t, i = _unit(p_y, self._low[0], self._step[0], self._cells[0])
-        u, j = _unit(beta, self._low[1], self._step[1], self._cells[1])
-        columns = self._coefficients[i, j] @ (1.0, u, u * u, u * u * u)
-        x, y, theta = columns @ (1.0, t, t * t, t * t * t)
-        return float(x), float(y), float(theta)
+        (p_low, b_low), (p_step, b_step), (p_cells, b_cells) = self._axes
+        t, i = _unit(p_y, p_low, p_step, p_cells)
+        u, j = _unit(beta, b_low, b_step, b_cells)
+        by_beta = self._coefficients[i, j] @ (1.0, u, u * u, u * u * u)
+        x, y, theta = (by_beta @ (1.0, t, t * t, t * t * t)).tolist()
+        return x, y, theta
 
 
 def _powers(t: Array) -> tuple[Array, Array]:
@@ -103,6 +105,6 @@ def _powers(t: Array) -> tuple[Array, Array]:
 
 
 def _unit(value: float, low: float, step: float, cells: int) -> tuple[float, int]:
-    place = min(max((value - low) / step, 0.0), float(cells))
-    cell = min(int(place), int(cells) - 1)
+    place = min(max((value - low) / step, 0.0), cells)
+    cell = min(int(place), cells - 1)
     return place - cell, cell

@@ -4,6 +4,9 @@
   moment of the measured limit surface.
 - The feet are springs. Four rigid feet share the weight as the solver's order of rows pleases,
   and the slider turns to one side; springs share it as the load does.
+- The feet stand on the diagonals, and the axes of the physics follow the slider's heading.
+  Bullet's friction is parallel to the slip only where a foot is equally heavy along both axes;
+  with fixed axes a push would turn the slider by up to 10 % more or less with its heading.
 - The tip is a sphere, one contact point at half height, so heavy that the slider cannot slow it.
 - PyBullet multiplies the friction coefficients of two bodies: the slider has 1, table and tip
   have theirs.
@@ -14,7 +17,8 @@
 import math
 
 import numpy as np
-from push_core.frames import Array
+from push_core.actuator import Pair
+from push_core.frames import Array, rotation, to_body, to_world, wrap_angle
 from push_core.limit_surface import GRAVITY
 from push_core.quaternion import quaternion_to_yaw, yaw_to_quaternion
 from push_core.slider import Slider
@@ -23,9 +27,11 @@ from push_sim.bullet import pybullet
 from push_sim.settings import WorldSettings
 
 _HALF_HEIGHT = 0.0065
+_FEET = 4
 _FOOT_RADIUS = 0.001
 _TIP_MASS = 1e6
 _CONTACT_RANGE = 1e-3
+_FOLLOW_TIME = 0.01
 _ASIDE = (0.0, 0.0, 10.0)
 _REST = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -47,6 +53,9 @@ class BulletWorld:
         # gravity takes this vertical speed from the tip in each step, so that it stays level
         self._lift = GRAVITY * settings.substep
         self._impulse: Array | None = None
+        self._axes = np.zeros(3)
+        self._follow_steps = max(1, round(_FOLLOW_TIME / settings.substep))
+        self._steps_left = self._follow_steps
 
     def close(self) -> None:
         """Ends the physics server."""
@@ -56,23 +65,28 @@ class BulletWorld:
         """See `World.reset`."""
         self._impulse = None
         self._forget_contacts()
+        self._axes = np.array(object_pose, dtype=float)
+        self._steps_left = self._follow_steps
         self.place_object(object_pose)
-        self._place(self._tip, (*map(float, tip_position), _HALF_HEIGHT), _UPRIGHT)
+        self._place_tip(tip_position)
 
-    def advance(self, tip_velocity: Array, substeps: int) -> None:
+    def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """See `World.advance`."""
-        client, tip = self._client, self._tip
-        velocity = (float(tip_velocity[0]), float(tip_velocity[1]), self._lift)
         if self._impulse is not None:
             self._apply_impulse(self._impulse)
-        for _ in range(substeps):
-            pybullet.resetBaseVelocity(tip, velocity, _REST, physicsClientId=client)
-            pybullet.stepSimulation(client)
+        while substeps > 0:
+            if self._steps_left == 0:
+                self._follow_heading()
+            count = min(substeps, self._steps_left)
+            self._run(rotation(-self._axes[2]) @ tip_velocity, count)
+            substeps -= count
+            self._steps_left -= count
 
     def place_object(self, object_pose: Array) -> None:
         """See `World.place_object`."""
-        x, y, theta = map(float, object_pose)
-        self._place(self._object, (x, y, self._resting_height), yaw_to_quaternion(theta))
+        x, y = to_body(self._axes, object_pose[:2]).tolist()
+        turn = yaw_to_quaternion(float(object_pose[2] - self._axes[2]))
+        self._place(self._object, (x, y, self._resting_height), turn)
 
     def push_object(self, impulse: Array) -> None:
         """See `World.push_object`."""
@@ -84,13 +98,14 @@ class BulletWorld:
         (x, y, _), (_, _, q_z, q_w) = pybullet.getBasePositionAndOrientation(
             self._object, self._client
         )
-        return np.array([x, y, quaternion_to_yaw(q_z, q_w)])
+        theta = wrap_angle(self._axes[2] + quaternion_to_yaw(q_z, q_w))
+        return np.array([*to_world(self._axes, np.array([x, y])), theta])
 
     @property
     def tip_position(self) -> Array:
         """See `World.tip_position`."""
         position, _ = pybullet.getBasePositionAndOrientation(self._tip, self._client)
-        return np.array(position[:2])
+        return to_world(self._axes, np.array(position[:2]))
 
     @property
     def contact(self) -> bool:
@@ -108,7 +123,7 @@ class BulletWorld:
 
     @property
     def _resting_height(self) -> float:
-        sinking = self._mass * GRAVITY / (self._settings.feet * self._settings.stiffness)
+        sinking = self._mass * GRAVITY / (_FEET * self._settings.stiffness)
         return _HALF_HEIGHT - sinking
 
     def _set_up_solver(self) -> None:
@@ -149,23 +164,20 @@ class BulletWorld:
 
     def _object_shape(self, side: float) -> int:
         """A box, clear of the table, on spheres as feet."""
-        feet = self._settings.feet
         half_box = (side / 2.0, side / 2.0, _HALF_HEIGHT - _FOOT_RADIUS)
         return int(
             pybullet.createCollisionShapeArray(
-                shapeTypes=[pybullet.GEOM_SPHERE] * feet + [pybullet.GEOM_BOX],
-                radii=[_FOOT_RADIUS] * feet + [0.0],
-                halfExtents=[_REST] * feet + [half_box],
+                shapeTypes=[pybullet.GEOM_SPHERE] * _FEET + [pybullet.GEOM_BOX],
+                radii=[_FOOT_RADIUS] * _FEET + [0.0],
+                halfExtents=[_REST] * _FEET + [half_box],
                 collisionFramePositions=[*self._foot_positions(), (0.0, 0.0, _FOOT_RADIUS)],
                 physicsClientId=self._client,
             )
         )
 
     def _foot_positions(self) -> list[tuple[float, float, float]]:
-        feet, radius = self._settings.feet, self._settings.support_radius
-        angles = [math.pi / feet + math.tau * foot / feet for foot in range(feet)]
-        height = _FOOT_RADIUS - _HALF_HEIGHT
-        return [(radius * math.cos(angle), radius * math.sin(angle), height) for angle in angles]
+        aside, height = self._settings.support_radius / math.sqrt(2.0), _FOOT_RADIUS - _HALF_HEIGHT
+        return [(x, y, height) for x in (-aside, aside) for y in (-aside, aside)]
 
     def _make_tip(self, radius: float) -> int:
         sphere = pybullet.createCollisionShape(
@@ -189,6 +201,36 @@ class BulletWorld:
         )
         return body
 
+    def _run(self, velocity: Array, substeps: int) -> None:
+        client, tip = self._client, self._tip
+        linear = (*velocity.tolist(), self._lift)
+        for _ in range(substeps):
+            pybullet.resetBaseVelocity(tip, linear, _REST, physicsClientId=client)
+            pybullet.stepSimulation(client)
+
+    def _follow_heading(self) -> None:
+        """Turns the axes of the physics along the slider and moves their origin under it."""
+        tip = self.tip_position
+        axes = self.object_pose
+        linear, angular = pybullet.getBaseVelocity(self._object, self._client)
+        (_, _, height), orientation = pybullet.getBasePositionAndOrientation(
+            self._object, self._client
+        )
+        back = yaw_to_quaternion(float(self._axes[2] - axes[2]))
+        _, level = pybullet.multiplyTransforms(_REST, back, _REST, orientation)
+        turned = [pybullet.rotateVector(back, vector) for vector in (linear, angular)]
+        self._axes = axes
+        self._steps_left = self._follow_steps
+        pybullet.resetBasePositionAndOrientation(
+            self._object, (0.0, 0.0, height), level, physicsClientId=self._client
+        )
+        pybullet.resetBaseVelocity(self._object, *turned, physicsClientId=self._client)
+        self._place_tip(tip)
+
+    def _place_tip(self, position: Array) -> None:
+        x, y = to_body(self._axes, position).tolist()
+        self._place(self._tip, (x, y, _HALF_HEIGHT), _UPRIGHT)
+
     def _forget_contacts(self) -> None:
         """Lifts the slider off everything for a step, so that no cached contact is left."""
         self._place(self._object, _ASIDE, _UPRIGHT)
@@ -203,9 +245,14 @@ class BulletWorld:
         pybullet.resetBaseVelocity(body, _REST, _REST, physicsClientId=self._client)
 
     def _apply_impulse(self, impulse: Array) -> None:
-        force = (*map(float, impulse / self._settings.substep), 0.0)
+        force = rotation(-self._axes[2]) @ impulse / self._settings.substep
         position, _ = pybullet.getBasePositionAndOrientation(self._object, self._client)
         pybullet.applyExternalForce(
-            self._object, -1, force, position, pybullet.WORLD_FRAME, physicsClientId=self._client
+            self._object,
+            -1,
+            (*force.tolist(), 0.0),
+            position,
+            pybullet.WORLD_FRAME,
+            physicsClientId=self._client,
         )
         self._impulse = None

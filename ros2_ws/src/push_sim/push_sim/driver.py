@@ -4,7 +4,7 @@ import math
 from collections import deque
 
 import numpy as np
-from push_core.actuator import Actuator, ActuatorSettings
+from push_core.actuator import Actuator, ActuatorSettings, Pair
 from push_core.frames import Array
 
 
@@ -34,11 +34,16 @@ class Driver:
         return self._braking
 
     def command(self, velocity: Array, arrival: float) -> None:
-        """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one."""
+        """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one.
+
+        One that is not finite is no command: the watchdog then stops the tip.
+        """
+        if not np.isfinite(velocity).all():
+            return
         self._inbox.append((arrival, np.array(velocity, dtype=float)))
 
-    def advance(self, now: float, duration: float) -> Array:
-        """Moves on from `now` by `duration` [s]; returns the mean velocity (2,) of the tip."""
+    def advance(self, now: float, duration: float) -> Pair:
+        """Moves on from `now` by `duration` [s]; returns the tip's mean velocity."""
         self._open_inbox(now)
         self._braking = now - self._last_arrival > self._timeout
         if self._braking:
