@@ -70,7 +70,7 @@ class BulletWorld:
         self.place_object(object_pose)
         self._place_tip(tip_position)
 
-    def advance(self, tip_velocity: Pair, substeps: int) -> None:
+    def advance(self, tip_velocity: Pair | Array, substeps: int) -> None:
         """See `World.advance`."""
         if self._impulse is not None:
             self._apply_impulse(self._impulse)
