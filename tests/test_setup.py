@@ -1,0 +1,129 @@
+"""Set-up on machines where something is missing, without installing anything."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+LOCKS = ('ros', 'run', 'dev')
+
+
+@pytest.fixture
+def project(tmp_path):
+    """A fresh clone, as far as set-up looks at it before it installs."""
+    for name in ('scripts', 'requirements'):
+        shutil.copytree(ROOT / name, tmp_path / 'clone' / name)
+    (tmp_path / 'clone/ros2_ws/src').mkdir(parents=True)
+    return tmp_path / 'clone'
+
+
+@pytest.fixture
+def tools(tmp_path):
+    """A PATH with what set-up itself uses, and neither compiler nor Python."""
+    folder = tmp_path / 'tools'
+    folder.mkdir()
+    used = 'bash sh env cat awk df dirname basename readlink sha256sum mkdir mv rm flock make find'
+    for name in used.split():
+        path = shutil.which(name)
+        assert path is not None, name
+        (folder / name).symlink_to(path)
+    return folder
+
+
+def add_tool(tools, name, script):
+    (tools / name).write_text(f'#!/bin/sh\n{script}\n')
+    (tools / name).chmod(0o755)
+
+
+def add_python(tools, version, missing='nothing'):
+    """A Python that says its version and fails where a script mentions what is missing."""
+    answer = f'case "$*" in *{missing}*) exit 1 ;; *version_info*) echo {version} ;; '
+    add_tool(tools, f'python{version}', f'{answer} *sys.executable*) echo "$0" ;; esac')
+
+
+def add_compilers(tools):
+    for name in ('cc', 'c++'):
+        add_tool(tools, name, 'exit 0')
+
+
+def message(project, tools, **environment):
+    """The one line that a failing set-up writes."""
+    result = subprocess.run(
+        [project / 'scripts/setup.sh'],
+        env={'PATH': str(tools), 'HOME': os.environ.get('HOME', '/'), **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=20,
+    )
+    assert result.returncode == 1
+    assert result.stderr.count('\n') == 1, result.stderr
+    assert not (project / '.venv').exists()
+    return result.stderr
+
+
+def test_no_suitable_python(project, tools):
+    assert 'Python 3.10 or 3.11 is needed' in message(project, tools)
+
+
+def test_a_wrong_python_asked_for(project, tools):
+    add_python(tools, '3.9')
+    assert 'python3.9' in message(project, tools, PYTHON='python3.9')
+
+
+def test_no_compiler(project, tools):
+    add_python(tools, '3.11')
+    assert 'no C++ compiler' in message(project, tools)
+
+
+def test_no_venv_module(project, tools):
+    add_compilers(tools)
+    add_python(tools, '3.11', missing='ensurepip')
+    assert 'apt install python3.11-venv' in message(project, tools)
+
+
+def test_no_headers(project, tools):
+    add_compilers(tools)
+    add_python(tools, '3.10', missing='Python.h')
+    assert 'apt install python3.10-dev' in message(project, tools)
+
+
+def test_no_room(project, tools):
+    add_compilers(tools)
+    add_python(tools, '3.11')
+    (tools / 'df').unlink()
+    add_tool(tools, 'df', 'echo head; echo disk 9000 8900 100 99% /')
+    assert '100 MB are free' in message(project, tools)
+
+
+def test_another_ros_is_sourced(project, tools):
+    assert 'ROS 2 humble is sourced' in message(project, tools, ROS_DISTRO='humble')
+
+
+@pytest.mark.parametrize('name', LOCKS)
+def test_locks_pin_every_package_and_name_no_host(name):
+    lines = (ROOT / f'requirements/{name}.txt').read_text().splitlines()
+    for line in lines:
+        assert re.match(r'( *#|[a-z0-9-]+==[^ ]+( ;|$))', line), line
+        assert '://' not in line
+
+
+def pinned(name):
+    """The versions of each package in a lock; several where they differ by Python."""
+    versions = {}
+    for line in (ROOT / f'requirements/{name}.txt').read_text().splitlines():
+        if match := re.match(r'([a-z0-9-]+)==([^ ]+)', line):
+            versions.setdefault(match[1], set()).add(match[2])
+    return versions
+
+
+@pytest.mark.parametrize(('name', 'other'), [('ros', 'run'), ('dev', 'run'), ('ros', 'dev')])
+def test_locks_agree_with_each_other(name, other):
+    first, second = pinned(name), pinned(other)
+    shared = first.keys() & second.keys()
+    assert shared
+    assert {p: first[p] for p in shared} == {p: second[p] for p in shared}
