@@ -1,12 +1,18 @@
 """A bag is published again as it was recorded: bytes, order, timing, quality of service."""
 
+import time
+
 import pytest
+import rclpy
 from push_bag.cell_topics import CELL_TOPICS
 from push_bag.qos_text import qos_profile, qos_text
+from push_bag.raw_subscription import RawSubscription
 from push_bag.reader import BagReader, Record, Topic
-from push_bag.replay import in_order, main, play
+from push_bag.replay import Publishers, in_order, main, play
 from push_core.errors import InputError
 from rclpy.qos import HistoryPolicy, QoSProfile
+
+DOMAIN = 62
 
 
 class Clock:
@@ -62,3 +68,28 @@ def test_text_that_is_no_profile_is_refused():
 def test_a_rate_of_zero_is_refused(perfect, capsys):
     assert main([str(perfect), '--rate', '0']) == 2
     assert '--rate must be above 0' in capsys.readouterr().err
+
+
+def test_a_subscriber_receives_the_recorded_bytes(perfect):
+    """Over real DDS, with a latched and a reliable topic of the bag."""
+    names = {'/nominal_trajectory', '/controller_state'}
+    records = list(in_order(BagReader(perfect).records(names)))
+    rclpy.init(domain_id=DOMAIN)
+    node = rclpy.create_node('player')
+    try:
+        topics = {record.topic.name: record.topic for record in records}
+        publishers = Publishers(node, topics.values())
+        listener = rclpy.create_node('listener')
+        ears = {
+            name: RawSubscription(listener, name, topic.type_name, qos_profile(topic.qos))
+            for name, topic in topics.items()
+        }
+        play(records, publishers.publish, rate=10.0)
+        time.sleep(0.2)
+        received = {name: [taken.data for taken in ear.take_all()] for name, ear in ears.items()}
+        listener.destroy_node()
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+    for name in names:
+        assert received[name] == [each.data for each in records if each.topic.name == name]
