@@ -22,6 +22,8 @@ STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0
 """(k, 4) factors on the prior's centre where the search starts."""
 
 HOPELESS = 1e25
+TOLERANCE = 1e-8
+"""Relative to the log likelihood, which is a few nats per push."""
 
 
 def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
@@ -38,12 +40,9 @@ def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
     starts = prior.centre + STARTS
     for rows in _stages(len(outputs)):
         likelihood = MarginalLikelihood(inputs[rows], outputs[rows])
-        found = [_climb(likelihood, prior, start) for start in starts]
-        best = min(found, key=lambda result: float(result.fun))
-        starts = best.x[None, :]
-    if best.fun >= HOPELESS:
-        raise RunError('no hyperparameters explain these pushes; are there many repeated rows?')
-    return Hyperparameters.from_logarithms(best.x)
+        best = _best(likelihood, prior, starts)
+        starts = best[None, :]
+    return Hyperparameters.from_logarithms(best)
 
 
 def _stages(count: int) -> Iterator[slice]:
@@ -55,17 +54,28 @@ def _stages(count: int) -> Iterator[slice]:
     yield slice(None)
 
 
+def _best(likelihood: MarginalLikelihood, prior: Prior, starts: Array) -> Array:
+    found = [_climb(likelihood, prior, start) for start in starts]
+    best = min(found, key=lambda result: float(result.fun))
+    if best.fun >= HOPELESS:
+        raise RunError('no hyperparameters explain these pushes')
+    return np.asarray(best.x)
+
+
 def _climb(likelihood: MarginalLikelihood, prior: Prior, start: Array) -> OptimizeResult:
     def loss(logarithms: Array) -> tuple[float, Array]:
-        hyperparameters = Hyperparameters.from_logarithms(logarithms)
         try:
-            value, slope = likelihood.with_gradient(hyperparameters)
+            value, slope = likelihood.with_gradient(Hyperparameters.from_logarithms(logarithms))
         except RunError:
             return HOPELESS, np.zeros(4)
         belief, belief_slope = prior.with_gradient(logarithms)
         return -value - belief, -slope - belief_slope
 
-    bounds = list(zip(prior.low, prior.high, strict=True))
     return minimize(
-        loss, np.clip(start, prior.low, prior.high), jac=True, method='L-BFGS-B', bounds=bounds
+        loss,
+        np.clip(start, prior.low, prior.high),
+        jac=True,
+        method='L-BFGS-B',
+        bounds=list(zip(prior.low, prior.high, strict=True)),
+        options={'ftol': TOLERANCE},
     )

@@ -16,10 +16,13 @@ def squared_differences(inputs: Array) -> Array:
     return differences
 
 
-def correlation(differences: Array, lengthscales: tuple[float, float]) -> Array:
-    """(n, n) kernel of unit signal for `squared_differences` (2, n, n)."""
-    exponent: Array = differences[0] * (-1.0 / lengthscales[0] ** 2)
-    exponent -= differences[1] * (1.0 / lengthscales[1] ** 2)
+def correlation(
+    differences: Array, lengthscales: tuple[float, float], out: Array | None = None
+) -> Array:
+    """(n, n) kernel of unit signal for `squared_differences` (2, n, n), into `out` if given."""
+    first, second = (-1.0 / lengthscale**2 for lengthscale in lengthscales)
+    exponent: Array = np.multiply(differences[0], first, out=out)
+    exponent += differences[1] * second
     np.exp(exponent, out=exponent)
     return exponent
 
