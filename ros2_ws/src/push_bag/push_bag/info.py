@@ -37,7 +37,7 @@ def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
     rows = [('topic', 'type', 'received', 'lost', 'rate [1/s]')]
     for name, topic in sorted(reader.topics.items()):
         seen = traffic.get(name, Traffic())
-        lost = str(seen.lost) if seen.numbered else '?'
+        lost = str(seen.lost) if seen.numbered or not seen.received else '?'
         rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}'))
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
     return [_aligned(row, widths) for row in rows]

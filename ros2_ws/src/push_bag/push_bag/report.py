@@ -39,6 +39,7 @@ section { margin: 18px 0; padding: 18px 20px; background: white; border-radius: 
 table { border-collapse: collapse; width: 100%; }
 th, td { padding: 5px 12px 5px 0; border-bottom: 1px solid #e4e8ec; text-align: left;
          vertical-align: top; overflow-wrap: anywhere; }
+td { white-space: pre-wrap; }
 th { width: 200px; font-weight: 600; white-space: nowrap; }
 """
 

@@ -2,6 +2,7 @@
 
 pose to command = publish time of a command - publish time of the pose that carries its stamp;
 a deadline miss is a pose in TRACKING whose command came more than DEADLINE later, or never.
+A run in one process has no middleware and therefore no pose to command.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from push_bag.series import Floats, RunSeries
 from push_bag.tracking import during_tracking
 
 DEADLINE = 0.010  # [s]
+WITHOUT_MIDDLEWARE = 'inprocess'  # the fact `mode` of such a run
 
 
 @dataclass(frozen=True)
@@ -22,7 +24,8 @@ class Timing:
     Attributes:
         solve: (n,) of the quadratic program.
         tick: (n,) pose received to command published, by the controller's clock.
-        pose_to_command: (m,) over the middleware, of the poses that were answered.
+        pose_to_command: (m,) over the middleware, of the poses that were answered; empty for a
+            run in one process.
         deadline_misses: poses answered too late or never.
     """
 
@@ -47,5 +50,8 @@ def _answers(run: RunSeries) -> tuple[Floats, int]:
     tracked = during_tracking(run, run.object.stamp)
     index, answered = run.commands.at(run.object.stamp[tracked])
     sent = run.object.published[tracked][answered]
+    unanswered = int(np.count_nonzero(~answered))
+    if run.facts.get('mode') == WITHOUT_MIDDLEWARE:
+        return np.zeros(0), unanswered
     latency: Floats = (run.commands.published[index[answered]] - sent).astype(np.float64) * 1e-6
-    return latency, int(np.count_nonzero(~answered))
+    return latency, unanswered

@@ -31,6 +31,8 @@ def timing_figure(timing: Timing) -> go.Figure:
 
 def _add_histogram(figure: go.Figure, column: int, times: Floats) -> None:
     if not times.size:
+        axes = {'xref': 'x domain', 'yref': 'y domain', 'showarrow': False}
+        figure.add_annotation(text='not measured', x=0.5, y=0.5, row=1, col=column, **axes)
         return
     counts, edges = np.histogram(times, BINS)
     bars = go.Bar(

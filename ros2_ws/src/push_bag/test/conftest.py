@@ -49,6 +49,7 @@ class Synthetic:
     limited: object = lambda tick: 0
     modes: object = None
     perturbed_at: float | None = None
+    facts: dict = field(default_factory=dict)
 
     def __post_init__(self):
         self.reference_ticks = round(self.duration * 100)
@@ -71,7 +72,7 @@ class Recorder:
 
     def __init__(self, folder, synthetic):
         facts = {'profile': 'irb120', 'seed': '7', 'mode': 'realtime'}
-        self.bag = BagWriter(folder, facts, {'params.yaml': b'a: 1\n'})
+        self.bag = BagWriter(folder, facts | synthetic.facts, {'params.yaml': b'a: 1\n'})
         self.synthetic = synthetic
         self.sequences = dict.fromkeys(CORE, 0)
         for topic in CORE.values():

@@ -161,3 +161,9 @@ def test_score_prints_one_json_object_or_a_table(record, capsys):
 def test_a_bag_without_a_reference_cannot_be_scored(record):
     with pytest.raises(InputError, match='no nominal trajectory'):
         score_run(record(missing={'nominal_trajectory': {0}}))
+
+
+def test_a_run_in_one_process_has_no_time_from_pose_to_command(record):
+    score = score_run(record(facts={'mode': 'inprocess'}, unanswered=(100,)))
+    assert score['pose_to_command_ms']['p50'] is None
+    assert score['deadline_misses'] == 1
