@@ -3,6 +3,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from push_core.errors import InputError
 from push_core.push_csv import COLUMNS, read_pushes, write_pushes
 from push_core.push_set import PushSet
@@ -155,3 +157,30 @@ def test_only_pushes_of_the_same_distance_join(pushes: PushSet) -> None:
     assert len(pushes.joined(pushes)) == 40
     with pytest.raises(InputError, match='do not join'):
         pushes.joined(other)
+
+
+def test_no_file_whatever_is_read_as_anything_but_pushes(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> None:
+    path = tmp_path_factory.mktemp('fuzz') / 'pushes.csv'
+    good = f'{HEADER}\n{GOOD_ROW}\n{GOOD_ROW}\n'.encode()
+    span = st.integers(0, len(good))
+    patches = st.tuples(span, span, st.binary(max_size=6))
+
+    @settings(max_examples=200, deadline=None)
+    @given(st.binary(max_size=60) | patches)
+    def check(change: bytes | tuple[int, int, bytes]) -> None:
+        if isinstance(change, bytes):
+            path.write_bytes(change)
+        else:
+            first, last, new = change
+            path.write_bytes(good[:first] + new + good[last:])
+        try:
+            pushes = read_pushes(path)
+        except InputError as error:
+            assert str(path) in str(error)
+        else:
+            assert np.isfinite(pushes.displacement).all()
+            assert len(pushes) >= 1
+
+    check()

@@ -10,11 +10,11 @@ from push_core.frames import Array
 from push_core.push_set import PushSet
 
 from push_gp.analytical_model import AnalyticalModel
-from push_gp.batched_mean import BatchedMean
 from push_gp.gp import GaussianProcess
 from push_gp.hyperparameters import Hyperparameters
 from push_gp.mean_function import MeanFunction
 from push_gp.model import ModelInfo
+from push_gp.posterior_mean import PosteriorMean
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class GpModel:
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """See `PushModel.evaluate`."""
         expected, expected_jacobian = self.mean_function.evaluate(p_y, beta)
-        mean, jacobian = self._batched_mean.evaluate(np.column_stack((p_y, beta)))
+        mean, jacobian = self._posterior_mean.evaluate(np.column_stack((p_y, beta)))
         return expected + mean, expected_jacobian + jacobian
 
     def variance(self, p_y: Array, beta: Array) -> Array:
@@ -109,8 +109,8 @@ class GpModel:
         )
 
     @cached_property
-    def _batched_mean(self) -> BatchedMean:
-        return BatchedMean(self.processes)
+    def _posterior_mean(self) -> PosteriorMean:
+        return PosteriorMean(self.processes)
 
     def _hash(self) -> str:
         digest = hashlib.sha256(self.pushes.sha256().encode())
