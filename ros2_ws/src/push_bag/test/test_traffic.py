@@ -1,5 +1,7 @@
 """Gaps are counted from sequence numbers, also where publishers share a topic."""
 
+import random
+
 import pytest
 from push_bag.traffic import Traffic, lost_text
 
@@ -19,13 +21,44 @@ def counted(sequences):
         ([7, 8, 10], 1),
         ([1, 1, 2, 3, 2, 3, 4], 0),
         ([1, 2, 3, 1, 2, 5, 3, 4], 1),
+        ([1, 2, 5, 3, 6, 4, 7], 0),
         ([0, 0, 0], 0),
     ],
-    ids=['whole', 'gaps', 'late start', 'two publishers', 'one of two has a gap', 'unknown'],
+    ids=[
+        'whole',
+        'gaps',
+        'late start',
+        'two publishers',
+        'one of two has a gap',
+        'a second publisher is heard late',
+        'unknown',
+    ],
 )
 def test_lost_is_what_is_missing_between(sequences, lost):
     assert counted(sequences).lost == lost
     assert counted(sequences).received == len(sequences)
+
+
+def test_random_loss_of_one_publisher_is_counted_exactly():
+    chance = random.Random(1)
+    kept = [number for number in range(1, 2001) if chance.random() > 0.2]
+    assert counted(kept).lost == kept[-1] - kept[0] + 1 - len(kept)
+
+
+def test_heavy_loss_of_several_publishers_is_never_overstated():
+    """Each begins at another number and loses a tenth of what it sends."""
+    chance = random.Random(2)
+    heard, sent, sequences = [0, 40, 900], [0, 0, 0], []
+    last = [None, None, None]
+    for _ in range(3000):
+        who = chance.randrange(3)
+        sent[who] += 1
+        if last[who] is None or chance.random() > 0.1:
+            first = heard[who] + sent[who]
+            last[who] = first
+            sequences.append(first)
+    true = sum(last[who] - heard[who] for who in range(3)) - len(sequences)
+    assert 0.9 * true <= counted(sequences).lost <= true
 
 
 def test_the_rate_is_that_between_first_and_last():
