@@ -2,7 +2,7 @@
 
 exp(-(a - b)^2) = sum_p f_p(a) f_p(b) with f_p(a) = exp(-a^2) sqrt(2^p / p!) a^p. The squares of
 the features of any point sum to one, so the sum is well conditioned; where |a|, |b| <= A, what is
-cut off after P terms is at most the probability of P or more events of a Poisson law of mean 2 A^2.
+cut off after P terms is at most the chance of P or more events of a Poisson law of mean 2 A^2.
 Source: the Taylor features of Cotter, Keshet and Srebro 2011, arXiv:1109.4603.
 """
 
