@@ -53,7 +53,7 @@ class BulletWorld:
         # gravity takes this vertical speed from the tip in each step, so that it stays level
         self._lift = GRAVITY * settings.substep
         self._impulse: Array | None = None
-        self._axes = np.zeros(3)
+        self._set_axes(np.zeros(3))
         self._follow_steps = max(1, round(_FOLLOW_TIME / settings.substep))
         self._steps_left = self._follow_steps
 
@@ -65,12 +65,12 @@ class BulletWorld:
         """See `World.reset`."""
         self._impulse = None
         self._forget_contacts()
-        self._axes = np.array(object_pose, dtype=float)
+        self._set_axes(np.array(object_pose, dtype=float))
         self._steps_left = self._follow_steps
         self.place_object(object_pose)
         self._place_tip(tip_position)
 
-    def advance(self, tip_velocity: Pair | Array, substeps: int) -> None:
+    def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """See `World.advance`."""
         if self._impulse is not None:
             self._apply_impulse(self._impulse)
@@ -78,7 +78,7 @@ class BulletWorld:
             if self._steps_left == 0:
                 self._follow_heading()
             count = min(substeps, self._steps_left)
-            self._run(rotation(-self._axes[2]) @ tip_velocity, count)
+            self._run(tip_velocity, count)
             substeps -= count
             self._steps_left -= count
 
@@ -201,12 +201,17 @@ class BulletWorld:
         )
         return body
 
-    def _run(self, velocity: Array, substeps: int) -> None:
+    def _run(self, velocity: Pair, substeps: int) -> None:
+        (cos, sin), (x, y) = self._heading, velocity
+        linear = (cos * x + sin * y, cos * y - sin * x, self._lift)
         client, tip = self._client, self._tip
-        linear = (*velocity.tolist(), self._lift)
         for _ in range(substeps):
             pybullet.resetBaseVelocity(tip, linear, _REST, physicsClientId=client)
             pybullet.stepSimulation(client)
+
+    def _set_axes(self, axes: Array) -> None:
+        self._axes = axes
+        self._heading = math.cos(axes[2]), math.sin(axes[2])
 
     def _follow_heading(self) -> None:
         """Turns the axes of the physics along the slider and moves their origin under it."""
@@ -219,7 +224,7 @@ class BulletWorld:
         back = yaw_to_quaternion(float(self._axes[2] - axes[2]))
         _, level = pybullet.multiplyTransforms(_REST, back, _REST, orientation)
         turned = [pybullet.rotateVector(back, vector) for vector in (linear, angular)]
-        self._axes = axes
+        self._set_axes(axes)
         self._steps_left = self._follow_steps
         pybullet.resetBasePositionAndOrientation(
             self._object, (0.0, 0.0, height), level, physicsClientId=self._client
@@ -245,7 +250,7 @@ class BulletWorld:
         pybullet.resetBaseVelocity(body, _REST, _REST, physicsClientId=self._client)
 
     def _apply_impulse(self, impulse: Array) -> None:
-        force = rotation(-self._axes[2]) @ impulse / self._settings.substep
+        force = rotation(self._axes[2]).T @ impulse / self._settings.substep
         position, _ = pybullet.getBasePositionAndOrientation(self._object, self._client)
         pybullet.applyExternalForce(
             self._object,

@@ -80,7 +80,8 @@ class Collector:
 
     def seen(self, p_y: float, beta: float) -> tuple[Observation, Observation]:
         """Pushes from contact offset p_y [m] in direction beta [rad]; returns start and end."""
-        velocity = self._design.speed * np.array([math.sin(beta), math.cos(beta)])
+        speed = self._design.speed
+        velocity = speed * math.sin(beta), speed * math.cos(beta)
         self._world.reset(_AT_ORIGIN, self._slider.tip_position(_AT_ORIGIN, p_y))
         self._world.advance(velocity, _steps(self._design.settling))
         before = self._look()

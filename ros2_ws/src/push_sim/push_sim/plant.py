@@ -73,9 +73,10 @@ class Plant:
     def step(self) -> Observation:
         """Advances one period; returns what the sensor shows then."""
         self._disturb_if_due()
+        start, duration = self.time, self._substep
         exposure = (-self._latency) % self._substeps or self._substeps
         for substep in range(self._substeps):
-            mean_velocity = self._driver.advance(self._time(substep), self._substep)
+            mean_velocity = self._driver.advance(start + substep * duration, duration)
             self._world.advance(mean_velocity, 1)
             if substep + 1 == exposure:
                 self._expose(exposure)

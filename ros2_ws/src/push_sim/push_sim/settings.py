@@ -23,11 +23,10 @@ class WorldSettings:
         0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
     )
     friction_ground: float = setting(0.35, 'friction of slider on table', low=0.01, high=2.0)
-    friction_pusher: float = setting(0.23, 'friction of slider on tip', low=0.0, high=2.0)
+    friction_pusher: float = setting(0.21, 'friction of slider on tip', low=0.0, high=2.0)
     support_radius: float = setting(
-        0.0348, 'distance of the feet from the centre', unit='m', low=1e-3, high=0.5
+        0.0365, 'distance of the four feet from the centre', unit='m', low=1e-3, high=0.5
     )
-    feet: int = setting(4, 'number of feet on that circle', low=3, high=32)
     stiffness: float = setting(1e5, 'stiffness of each foot', unit='N/m', low=1e3, high=1e7)
     damping: float = setting(200.0, 'damping of each foot', unit='N s/m', low=0.0, high=1e5)
     solver_iterations: int = setting(200, 'most iterations a step', low=10, high=10000)

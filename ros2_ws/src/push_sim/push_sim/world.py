@@ -17,8 +17,8 @@ class World(Protocol):
             tip_position: (2,) centre of the tip [m].
         """
 
-    def advance(self, tip_velocity: Pair | Array, substeps: int) -> None:
-        """Moves on by some time steps while the tip keeps a velocity (2,) [m/s]."""
+    def advance(self, tip_velocity: Pair, substeps: int) -> None:
+        """Moves on by some time steps while the tip keeps a velocity [m/s]."""
 
     def place_object(self, object_pose: Array) -> None:
         """Lifts the object and puts it down at rest at a pose (3,)."""

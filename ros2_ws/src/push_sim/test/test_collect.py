@@ -1,0 +1,94 @@
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from push_core.motion_cone import MotionCone
+from push_core.push_csv import read_pushes
+from push_core.slider import Slider
+from push_sim.bullet_world import BulletWorld
+from push_sim.collect import collect, main
+from push_sim.collector import Collector, PushDesign
+from push_sim.progress_bar import bar
+from push_sim.settings import profile
+
+
+def test_the_same_seed_collects_the_same_file_with_any_number_of_processes(tmp_path: Path):
+    contents = set()
+    for jobs in ('1', '1', '2'):
+        output = tmp_path / f'pushes_{len(contents)}.csv'
+        assert main(['--pushes', '60', '--seed', '4', '--jobs', jobs, '-o', str(output)]) == 0
+        contents.add(output.read_bytes())
+    assert len(contents) == 1
+
+
+def test_a_longer_collection_begins_like_a_shorter_one() -> None:
+    short, long = collect(5, seed=1), collect(10, seed=1)
+    assert np.array_equal(long.displacement[:5], short.displacement)
+    assert not np.array_equal(collect(5, seed=2).p_y, short.p_y)
+
+
+def test_the_pushes_cover_face_and_directions(slider: Slider) -> None:
+    pushes, design = collect(300, seed=0), PushDesign()
+    assert pushes.distance == pytest.approx(0.004)
+    assert np.all(np.abs(pushes.p_y) <= slider.side / 2.0)
+    assert pushes.p_y.std() == pytest.approx(slider.side / 2.0 / math.sqrt(3.0), rel=0.15)
+    assert np.abs(pushes.beta - math.pi / 2.0).max() > 0.9 * design.steepest
+
+
+def test_the_pushes_are_those_of_the_motion_cone_but_for_feet_and_noise(slider: Slider) -> None:
+    world = profile('irb120').world
+    same = Slider(friction_pusher=world.friction_pusher, support_radius=world.support_radius)
+    pushes = collect(200, seed=0)
+    rate, _ = MotionCone(same).evaluate(pushes.p_y, pushes.beta)
+    error = np.sqrt(np.mean((pushes.displacement - rate * pushes.distance) ** 2, axis=0))
+    assert np.all(error < [0.25e-3, 0.25e-3, math.radians(0.6)])
+
+
+def test_the_cameras_noise_is_in_the_rows() -> None:
+    difference = collect(200, 3, 'irb120').displacement - collect(200, 3, 'ideal').displacement
+    expected = profile('irb120').sensor.position_noise * math.sqrt(2.0)
+    # what the noise of the start's heading adds is a hundred times less
+    assert np.median(np.abs(difference[:, 0])) == pytest.approx(0.6745 * expected, rel=0.3)
+
+
+def test_long_steps_do_not_change_a_push(slider: Slider) -> None:
+    collector = Collector(profile('ideal'), slider, PushDesign())
+    fine = BulletWorld(profile('ideal').world, slider)
+    for p_y, beta in [(0.02, 1.2), (-0.03, 2.0), (0.0, 0.5)]:
+        _, after = collector.seen(p_y, beta)
+        fine.reset(np.zeros(3), slider.tip_position(np.zeros(3), p_y))
+        fine.advance((0.02 * math.sin(beta), 0.02 * math.cos(beta)), 240)
+        assert np.all(np.abs(after.object_pose - fine.object_pose) < [2e-5, 2e-5, 3e-4])
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'named'),
+    [
+        (['--pushes', '0', '-o', 'x.csv'], '--pushes'),
+        (['--pushes', '5', '--seed', '-1', '-o', 'x.csv'], '--seed'),
+        (['--pushes', '5', '--speed', '0', '-o', 'x.csv'], 'speed'),
+        (['--pushes', '5', '--duration', '0.1234', '-o', 'x.csv'], 'duration'),
+        (['--pushes', '5', '-o', 'missing/x.csv'], 'missing'),
+    ],
+)
+def test_a_wrong_command_is_one_line_and_status_2(
+    arguments, named, tmp_path, monkeypatch, capsys
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert error.count('\n') == 1
+    assert named in error
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_collection_is_written_as_it_was_made(tmp_path: Path) -> None:
+    output = tmp_path / 'pushes.csv'
+    assert main(['--pushes', '4', '--seed', '7', '-o', str(output)]) == 0
+    assert np.array_equal(read_pushes(output).displacement, collect(4, 7).displacement)
+
+
+def test_the_bar_fills() -> None:
+    assert bar('x', 1, 2).count('#') == 15
+    assert bar('x', 2, 2).endswith('2/2')

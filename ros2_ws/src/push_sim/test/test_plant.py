@@ -1,0 +1,201 @@
+import subprocess
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from push_core.errors import InputError
+from push_core.frames import rotation, to_body
+from push_core.settings import replaced
+from push_core.slider import Slider
+from push_sim.perturbation import Kind, Perturbation
+from push_sim.plant import Plant
+from push_sim.settings import PROFILES, profile
+
+POSE = np.array([0.1, -0.2, 0.3])
+FORWARD = rotation(POSE[2]) @ [0.05, 0.0]
+
+
+def run(plant: Plant, start, weave, periods: int = 100, seed: int = 3) -> np.ndarray:
+    """Everything that the sensor showed (periods, 6)."""
+    plant.reset(*start, seed)
+    shown = []
+    for tick in range(periods):
+        plant.command(weave(tick), plant.time)
+        seen = plant.step()
+        shown.append([seen.time, *seen.object_pose, *seen.tip_position])
+    return np.array(shown)
+
+
+@pytest.mark.parametrize('name', PROFILES)
+def test_a_reset_gives_the_same_trajectory_bit_for_bit_whatever_came_before(
+    name, slider, start, weave
+) -> None:
+    plant = Plant(profile(name), slider)
+    first = run(plant, start, weave)
+    random = np.random.default_rng(0)
+    for _ in range(5):
+        pose = random.normal(size=3)
+        plant.reset(pose, slider.tip_position(pose, 0.03), 9)
+        for _ in range(20):
+            plant.command(random.normal(0.0, 0.1, 2), plant.time)
+            plant.step()
+    plant.perturb(Perturbation(Kind.IMPULSE, 0.3, 1.0))
+    assert np.array_equal(run(plant, start, weave), first)
+
+
+def test_another_process_gives_the_same_trajectory(slider) -> None:
+    program = (
+        'import numpy as np; from push_core.slider import Slider;'
+        'from push_sim.plant import Plant; from push_sim.settings import profile;'
+        'plant = Plant(profile("irb120"), Slider()); pose = np.array([0.1, -0.2, 0.3]);'
+        'plant.reset(pose, Slider().tip_position(pose, 0.01), 3);'
+        '[(plant.command(np.array([0.08, 0.02]), plant.time), plant.step()) for _ in range(80)];'
+        'print(*map(float.hex, map(float, plant.object_pose)))'
+    )
+    outputs = {
+        subprocess.run([sys.executable, '-c', program], capture_output=True, check=True).stdout
+        for _ in range(2)
+    }
+    assert len(outputs) == 1
+
+
+def test_another_seed_draws_other_noise_around_the_same_motion(irb120, start, weave) -> None:
+    one, other = run(irb120, start, weave, seed=1), run(irb120, start, weave, seed=2)
+    difference = other[:, 1:4] - one[:, 1:4]
+    scale = np.array([PROFILES['irb120'].sensor.position_noise * 2**0.5] * 2)
+    assert difference[:, :2].std(axis=0) == pytest.approx(scale, rel=0.3)
+    assert np.array_equal(one[:, 4:], other[:, 4:])
+
+
+def test_the_irb120_lags_by_dead_time_and_lag_within_a_millisecond(irb120) -> None:
+    settings = PROFILES['irb120'].actuator
+    away = np.array([-1.0, 0.0])
+    irb120.reset(POSE, away, 0)
+    for _ in range(100):
+        irb120.command(np.array([0.05, 0.0]), irb120.time)
+        irb120.step()
+    delay = 1.0 - (irb120.tip_position - away)[0] / 0.05
+    assert delay == pytest.approx(settings.dead_time + settings.lag, abs=1e-3)
+
+
+def test_nothing_moves_during_the_dead_time(irb120, start) -> None:
+    irb120.reset(*start, 0)
+    for tick in range(8):
+        irb120.command(FORWARD, irb120.time)
+        irb120.step()
+        moved = np.hypot(*(irb120.tip_position - start[1]))
+        assert (moved > 1e-12) == (tick >= 6)
+
+
+def test_a_command_acts_from_its_arrival_within_the_period(ideal) -> None:
+    away = np.array([-1.0, 0.0])
+    ideal.reset(POSE, away, 0)
+    ideal.command(np.array([0.05, 0.0]), ideal.time + 0.006)
+    ideal.step()
+    assert (ideal.tip_position - away)[0] == pytest.approx(0.05 * 0.004, abs=1e-5)
+
+
+@pytest.mark.parametrize('name', PROFILES)
+def test_the_tip_rests_within_a_quarter_second_after_the_last_command(name, slider) -> None:
+    plant = Plant(profile(name), slider)
+    plant.reset(POSE, np.array([-1.0, 0.0]), 0)
+    for _ in range(40):
+        plant.command(np.array([0.25, 0.0]), plant.time)
+        plant.step()
+    assert plant.tip_velocity[0] > 0.2
+    for _ in range(24):
+        plant.step()
+    assert np.array_equal(plant.tip_velocity, [0.0, 0.0])
+    rest = plant.tip_position
+    plant.step()
+    np.testing.assert_allclose(plant.tip_position, rest, atol=1e-12)
+
+
+@pytest.mark.parametrize('latency', [0.0, 0.003, 0.01, 0.025])
+def test_what_is_shown_was_exposed_one_latency_ago(latency: float, slider, start) -> None:
+    settings = replaced(profile('ideal'), {'sensor.latency': latency, 'world.substep': 0.001})
+    plant = Plant(settings, slider)
+    assert plant.reset(*start, 0).time == pytest.approx(Plant.START - latency)
+    for _ in range(20):
+        plant.command(FORWARD, plant.time)
+        seen = plant.step()
+        assert plant.time - seen.time == pytest.approx(latency, abs=1e-9)
+    expected = start[1] + FORWARD * (seen.time - Plant.START)
+    np.testing.assert_allclose(seen.tip_position, expected, atol=1e-4)
+
+
+def test_a_normal_perturbation_leaves_a_gap_of_30_mm(ideal, slider, start) -> None:
+    ideal.reset(*start, 0)
+    disturbance = ideal.perturb(Perturbation(Kind.NORMAL, 0.03))
+    assert slider.gap(ideal.object_pose, ideal.tip_position) == pytest.approx(0.03, abs=1e-9)
+    np.testing.assert_allclose(disturbance.direction, rotation(POSE[2])[:, 0])
+
+
+@pytest.mark.parametrize('magnitude', [0.02, -0.02])
+def test_a_tangential_perturbation_shifts_the_contact_along_the_face(
+    ideal, slider, start, magnitude
+) -> None:
+    ideal.reset(*start, 0)
+    ideal.perturb(Perturbation(Kind.TANGENTIAL, magnitude))
+    p_y = slider.contact_offset(ideal.object_pose, ideal.tip_position)
+    assert p_y == pytest.approx(0.01 + magnitude, abs=1e-9)
+    assert slider.gap(ideal.object_pose, ideal.tip_position) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_an_impulse_slides_the_object_until_friction_has_stopped_it(ideal, slider) -> None:
+    ideal.reset(POSE, np.array([-1.0, 0.0]), 0)
+    ideal.perturb(Perturbation(Kind.IMPULSE, 0.2, angle=1.0))
+    for _ in range(30):
+        ideal.step()
+    speed = 0.2 / slider.mass
+    travel = speed**2 / (2.0 * profile('ideal').world.friction_ground * 9.81)
+    moved = ideal.object_pose[:2] - POSE[:2]
+    assert np.hypot(*moved) == pytest.approx(travel, rel=0.05)
+    assert np.arctan2(moved[1], moved[0]) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_a_scheduled_perturbation_waits_for_its_time_after_the_first_motion(
+    slider: Slider, start
+) -> None:
+    changes = {'perturbation.kind': 'normal', 'perturbation.time': 0.1}
+    plant = Plant(replaced(profile('ideal'), changes), slider)
+    plant.reset(*start, 0)
+    times = []
+    for tick in range(40):
+        plant.command(FORWARD if tick >= 5 else np.zeros(2), plant.time)
+        plant.step()
+        times += [disturbance.time for disturbance in plant.take_disturbances()]
+    assert times == [pytest.approx(Plant.START + 0.05 + 0.1)]
+
+
+def test_a_perturbation_at_time_zero_is_there_from_the_start(slider: Slider, start) -> None:
+    plant = Plant(replaced(profile('ideal'), {'perturbation.kind': 'normal'}), slider)
+    seen = plant.reset(*start, 0)
+    assert to_body(seen.object_pose, start[1])[0] == pytest.approx(slider.tip_x - 0.03)
+    assert [disturbance.kind for disturbance in plant.take_disturbances()] == [Kind.NORMAL]
+
+
+def test_a_reset_refuses_what_is_no_state(ideal, start) -> None:
+    with pytest.raises(InputError, match='finite'):
+        ideal.reset(np.array([np.nan, 0.0, 0.0]), start[1], 0)
+    with pytest.raises(InputError, match='seed'):
+        ideal.reset(*start, -1)
+    with pytest.raises(InputError, match='object pose'):
+        ideal.reset(start[1], start[1], 0)
+
+
+def test_a_command_that_is_not_finite_counts_as_none(ideal, start) -> None:
+    ideal.reset(*start, 0)
+    for _ in range(10):
+        ideal.command(np.array([np.nan, 0.0]), ideal.time)
+        ideal.step()
+    assert ideal.braking
+    np.testing.assert_allclose(ideal.tip_position, start[1], atol=1e-12)
+
+
+def test_the_latency_must_fit_the_substep(slider: Slider) -> None:
+    settings = profile('irb120')
+    sensor = replace(settings.sensor, latency=0.0033)
+    with pytest.raises(InputError, match=r'sensor\.latency'):
+        Plant(replace(settings, sensor=sensor), slider)
