@@ -74,7 +74,7 @@ class _Rows:
         return RunSeries(
             facts=reader.facts,
             finished=reader.finished,
-            traffic=self.traffic,
+            traffic={name: self.traffic.get(name, Traffic()) for name in reader.topics},
             object=self._stamped('object_pose', 3),
             pusher=self._stamped('pusher_pose', 2),
             commands=self._stamped('pusher_velocity_cmd', 2),

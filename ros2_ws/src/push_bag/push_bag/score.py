@@ -22,6 +22,7 @@ from push_bag.run_reader import read_run
 from push_bag.series import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.timing import timing
 from push_bag.tracking import Tracking, track
+from push_bag.traffic import Traffic
 
 END_DISTANCE = 0.050  # [m]
 POSE_PERIOD_NS = 10_000_000
@@ -115,10 +116,15 @@ def messages(run: RunSeries) -> dict[str, dict[str, int | None]]:
     return {
         topic: {
             'received': seen.received,
-            'lost': seen.lost if seen.numbered else missing_stamps(stamps.get(short_name(topic))),
+            'lost': _lost(seen, stamps.get(short_name(topic))),
         }
         for topic, seen in sorted(run.traffic.items())
     }
+
+
+def _lost(seen: Traffic, stamps: Nanoseconds | None) -> int | None:
+    known = seen.numbered or not seen.received
+    return seen.lost if known else missing_stamps(stamps)
 
 
 def missing_stamps(stamps: Nanoseconds | None) -> int | None:

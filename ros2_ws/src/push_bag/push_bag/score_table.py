@@ -30,6 +30,10 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('deadline misses', str(score['deadline_misses'])),
         ('contact losses', str(score['contact_losses'])),
         ('limited ticks', _counts(score['limited'])),
+        (
+            'bag',
+            'finished' if score['bag_finished'] else 'unfinished: the recording was cut short',
+        ),
     ]
 
 

@@ -20,8 +20,10 @@ ROWS = (
     ('v_t [mm/s]', (-10.0, 10.0)),
 )
 NOMINAL = 'nominal'
+CROSS_TRACK = 'cross-track error, left positive'
 # the axes' titles explain the other lines
-LEGEND = ('tracking error', 'cross-track error, left positive', NOMINAL)
+LEGEND = ('tracking error', CROSS_TRACK, NOMINAL, 'limited', 'no contact', 'perturbation')
+TIME_AXIS = f'x{len(ROWS)}'  # of the lowest row; all rows use it, so the cursor crosses them
 HEIGHT = 1100
 
 
@@ -33,14 +35,15 @@ def time_figure(
     _add_errors(figure, tracking)
     _add_contact(figure, run, reference, contact)
     _add_inputs(figure, run)
-    _mark_events(figure, run, contact)
+    _mark_losses(figure, run, contact)
+    _mark_disturbances(figure, run, contact)
+    _explain(figure)
     styled(figure, HEIGHT, hovermode='x unified')
     for row, (title, shown) in enumerate(ROWS, start=1):
         figure.update_yaxes(
             title=title, autorangeoptions={'include': shown}, nticks=5, row=row, col=1
         )
-    # one shared axis, so that the cursor crosses all rows
-    figure.update_traces(xaxis=f'x{len(ROWS)}')
+    figure.update_traces(xaxis=TIME_AXIS)
     figure.update_xaxes(title='reference time [s]', row=len(ROWS), col=1)
     return figure.update_xaxes(showspikes=True, spikemode='across', spikethickness=1)
 
@@ -48,7 +51,7 @@ def time_figure(
 def _add_errors(figure: go.Figure, tracking: Tracking) -> None:
     time = tracking.reference_time
     _line(figure, 1, 'tracking error', time, tracking.distance * 1e3, BLUE)
-    _line(figure, 1, 'cross-track error, left positive', time, tracking.cross_track * 1e3, ORANGE)
+    _line(figure, 1, CROSS_TRACK, time, tracking.cross_track * 1e3, ORANGE)
     _line(figure, 2, 'heading error', time, np.degrees(tracking.heading), GREEN)
 
 
@@ -81,16 +84,55 @@ def _add_limited(figure: go.Figure, time: Floats, speed: Floats, bits: Floats) -
     figure.add_trace(marks, row=5, col=1)
 
 
-def _mark_events(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
-    """Red lines for perturbations, grey bands for the time without contact."""
+def _mark_losses(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+    """A grey band through all rows for each interval without contact."""
+    intervals = loss_intervals(contact)
+    for interval in intervals:
+        start, end = reference_times(run, np.array(interval))
+        _mark(figure, 'rect', start, end, GREY)
+    if intervals:
+        _add_key(figure, 'no contact', {'symbol': 'square', 'color': GREY, 'size': 10})
+
+
+def _mark_disturbances(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+    """A red line through all rows for each perturbation."""
     if not contact.stamp.size:
         return
-    for interval in loss_intervals(contact):
-        start, end = reference_times(run, np.array(interval))
-        figure.add_vrect(start, end, fillcolor=GREY, opacity=0.25, line_width=0, row='all', col=1)
     for each in run.disturbances:
         (time,) = reference_times(run, np.array([each.stamp]))
-        figure.add_vline(time, line={'color': RED, 'width': 1.5}, row='all', col=1)
+        _mark(figure, 'line', time, time, RED)
+    if run.disturbances:
+        _add_key(figure, 'perturbation', {'symbol': 'line-ns-open', 'color': RED, 'size': 10})
+
+
+def _mark(figure: go.Figure, kind: str, start: float, end: float, colour: str) -> None:
+    figure.add_shape(
+        type=kind,
+        xref=TIME_AXIS,
+        yref='paper',
+        x0=start,
+        x1=end,
+        y0=0.0,
+        y1=1.0,
+        layer='below',
+        fillcolor=colour,
+        opacity=0.4,
+        line={'color': colour, 'width': 1.5},
+    )
+
+
+def _add_key(figure: go.Figure, name: str, marker: dict[str, object]) -> None:
+    """A trace without points, which gives a shape its place in the legend."""
+    key = go.Scatter(x=[None], y=[None], mode='markers', name=name, marker=marker)
+    figure.add_trace(key, row=1, col=1)
+
+
+def _explain(figure: go.Figure) -> None:
+    """Leaves each name of LEGEND in the legend once, and no other."""
+    figure.update_traces(showlegend=False)
+    for name in LEGEND:
+        for trace in list(figure.select_traces({'name': name}))[:1]:
+            trace.showlegend = True
 
 
 def _line(
@@ -111,7 +153,5 @@ def _line(
         name=name,
         line=line,
         hovertemplate='%{y:.2f}',
-        legendgroup=name,
-        showlegend=name in LEGEND and (name != NOMINAL or row == len(ROWS)),
     )
     figure.add_trace(trace, row=row, col=1)

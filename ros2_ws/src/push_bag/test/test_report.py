@@ -54,3 +54,14 @@ def test_score_writes_the_report_where_told(perfect, tmp_path, capsys):
     assert main([str(perfect), '--html', str(tmp_path / 'page.html')]) == 0
     assert capsys.readouterr().out.startswith('completed')
     assert (tmp_path / 'page.html').stat().st_size > 1_000_000
+
+
+def test_perturbations_and_contact_losses_are_marked(record, perfect):
+    marked = read_run(
+        record(perturbed_at=0.5, gap=lambda time: 0.002 if 0.5 < time < 0.7 else 0.0)
+    )
+    unmarked = read_run(perfect)
+    page = report_html(marked, score_series(marked))
+    for name in ('no contact', 'perturbation'):
+        assert f'"name":"{name}"' in page
+    assert '"name":"no contact"' not in report_html(unmarked, score_series(unmarked))
