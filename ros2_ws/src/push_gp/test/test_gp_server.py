@@ -187,7 +187,6 @@ def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> Non
     [
         ('model:=none.npz', 'No such file'),
         ('speed:=3.0', "unknown parameter 'speed'"),
-        ('distance:=-0.004', 'distance is -0.004'),
     ],
 )
 def test_a_wrong_parameter_is_one_line_and_status_2(parameter: str, fault: str) -> None:
