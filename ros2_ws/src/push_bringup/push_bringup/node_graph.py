@@ -47,7 +47,7 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 
 def _stop_in_order(processes: Processes) -> None:
     """The controller first; the recorder last, when the plant is at rest."""
-    processes.stop(['mpc_node'])
+    processes.interrupt('mpc_node', 'gp_server')
     time.sleep(COMING_TO_REST)
-    processes.stop(['sim_node', 'gp_server'])
-    processes.stop(['recorder'])
+    processes.stop('sim_node', 'mpc_node', 'gp_server')
+    processes.stop('recorder')

@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -52,7 +51,7 @@ class Processes:
         return self
 
     def __exit__(self, *_error: object) -> None:
-        self.stop(list(self._children))
+        self.stop(*self._children)
 
     def start(self) -> None:
         """Starts all nodes."""
@@ -85,19 +84,25 @@ class Processes:
         """Exit status of a node, None while it runs."""
         return self._children[name].process.poll()
 
-    def stop(self, names: Sequence[str]) -> None:
-        """Asks nodes to end, together, and kills those that do not."""
-        children = [self._children[name] for name in names if name in self._children]
-        for child in children:
-            if child.process.poll() is None:
-                child.process.send_signal(signal.SIGINT)
+    def interrupt(self, *names: str) -> None:
+        """Asks nodes to end."""
+        for name in names:
+            if self.status(name) is None:
+                self._children[name].process.send_signal(signal.SIGINT)
+
+    def stop(self, *names: str) -> None:
+        """Asks nodes to end, waits for them, and kills those that do not."""
+        self.interrupt(*names)
         deadline = time.monotonic() + _PATIENCE
-        for child in children:
-            try:
-                child.process.wait(max(deadline - time.monotonic(), 0.0))
-            except subprocess.TimeoutExpired:
-                child.process.kill()
-                child.process.wait()
+        for name in names:
+            self._wait(self._children[name].process, deadline)
+
+    def _wait(self, process: 'subprocess.Popen[bytes]', deadline: float) -> None:
+        try:
+            process.wait(max(deadline - time.monotonic(), 0.0))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]

@@ -1,0 +1,45 @@
+"""Commands of the project as a user runs them, and how they ended."""
+
+import subprocess
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+CELL = ('ros2', 'run', 'push_bringup', 'cell')
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A command that has ended."""
+
+    status: int
+    out: str
+    err: str
+
+    @classmethod
+    def of(cls, environment: dict[str, str], *arguments: str) -> 'Ended':
+        """Runs the cell to its end with the given arguments."""
+        return cls.of_command(environment, *CELL, *arguments)
+
+    @classmethod
+    def of_command(cls, environment: dict[str, str], *command: str) -> 'Ended':
+        """Runs a command to its end."""
+        done = subprocess.run(
+            command, env=environment, capture_output=True, text=True, timeout=120, check=False
+        )
+        return cls(done.returncode, done.stdout, done.stderr)
+
+    @property
+    def folder(self) -> Path:
+        """The run's folder, which is the last line printed."""
+        return Path(self.out.splitlines()[-1])
+
+
+def wait_until(condition: Callable[[], bool], cell: 'subprocess.Popen[str]') -> None:
+    """Waits for a condition while the cell lives."""
+    deadline = time.monotonic() + 60.0
+    while not condition():
+        assert cell.poll() is None, cell.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.05)

@@ -1,0 +1,51 @@
+"""The cell as a user runs it: `ros2 run push_bringup cell …` in processes of its own."""
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from cell_command import CELL, Ended, wait_until
+
+# a domain of our own, so that no cell of the machine's user is in the way
+DOMAIN = str(40 + os.getpid() % 40)
+
+
+@pytest.fixture(scope='session')
+def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Variables for all commands; one cache, so that the default model is learned once."""
+    cache = tmp_path_factory.mktemp('cache')
+    return {**os.environ, 'ROS_DOMAIN_ID': DOMAIN, 'XDG_CACHE_HOME': str(cache)}
+
+
+@pytest.fixture
+def run_cell(environment: dict[str, str], tmp_path: Path) -> Callable[..., Ended]:
+    """Runs the cell to its end with the given arguments."""
+
+    def run(*arguments: str) -> Ended:
+        return Ended.of(environment, *arguments, '-o', str(tmp_path / 'runs'))
+
+    return run
+
+
+@pytest.fixture
+def pushing_cell(environment: dict[str, str], tmp_path: Path) -> Iterator['subprocess.Popen[str]']:
+    """A realtime cell that has been pushing for a second."""
+    runs = tmp_path / 'runs'
+    cell = subprocess.Popen(
+        [*CELL, '--speed', '0.05', '-o', str(runs)],
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    wait_until(lambda: any(runs.glob('*/*.mcap')), cell)
+    time.sleep(3.0)
+    assert cell.poll() is None
+    yield cell
+    if cell.poll() is None:
+        cell.send_signal(signal.SIGKILL)
+    cell.communicate()
