@@ -15,7 +15,7 @@ from push_sim.collector import Collector, PushDesign
 from push_sim.settings import profile
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR', Path(__file__).parents[5] / 'shared' / 'data'))
-EVERY = 15
+EVERY = 25
 
 pytestmark = pytest.mark.skipif(
     not DATA.is_dir(), reason=f'no measured pushes in {DATA}; PUSH_DATA_DIR names another place'
@@ -42,7 +42,8 @@ def test_long_pushes_that_stay_on_the_face_end_as_measured(slider: Slider) -> No
     world = BulletWorld(replace(profile('ideal').world, substep=0.005), slider)
     errors = [end_error(world, row) for row in rows if on_face(slider, row[3:6], row[8:10])]
     millimetres, degrees = np.mean(errors, axis=0) * [1e3, 180.0 / np.pi]
-    assert millimetres <= 4.2
+    # over all 294 of them it is 3.70 mm and 3.77 degrees; these 33 come out alike
+    assert millimetres <= 3.8
     assert degrees <= 4.3
 
 

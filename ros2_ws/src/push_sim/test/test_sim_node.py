@@ -112,13 +112,14 @@ def test_realtime_poses_come_on_a_grid_of_10_ms_until_sigterm(client) -> None:
     process = start_node()
     assert client.reset().success
     client.poses.clear()
-    begin = time.monotonic()
-    client.wait(lambda: len(client.poses) >= 100)
-    assert time.monotonic() - begin == pytest.approx(1.0, abs=0.3)
+    client.wait(lambda: len(client.poses) >= 50)
+    # late wake-ups of a busy machine skip poses, but the plant keeps up with the clock
+    age = time.time_ns() - to_nanoseconds(client.poses[-1].header.stamp)
+    assert 0 < age < 500_000_000
     steps = np.diff([to_nanoseconds(pose.header.stamp) for pose in client.poses])
+    assert np.all(steps > 0)
     assert np.all(steps % 10_000_000 == 0)
     assert client.poses[-1].pose.position.x == pytest.approx(OBJECT_POSE[0], abs=1e-3)
-    begin = time.monotonic()
     process.send_signal(signal.SIGTERM)
     assert process.wait(timeout=2.0) == 0
     assert 'Traceback' not in process.communicate()[1]
