@@ -18,7 +18,7 @@ class Preview:
         transition: A (n, 4, 4).
         effect: B (n, 4, 2).
         drift: c (n, 4): motion of the model along the plan minus that of the plan.
-        input: nominal input, mean over the step (n, 2) [m/s].
+        input: nominal input at the start of the step (n, 2) [m/s].
         contact: nominal p_y at the end of the step (n,) [m].
     """
 

@@ -5,7 +5,9 @@
          |p_y| bounds on every state but the first, bounds on every input
 
 in deviations from the nominal. OSQP sees the problem in millimetres and with its cost divided by
-the largest weight: so scaled, its tail is an order of magnitude shorter than in SI units.
+the largest weight: so scaled, its tail is an order of magnitude shorter than in SI units, and its
+own scaling only costs time. Coarse iterations find the active bounds and polishing then solves for
+them: 1e-5 m/s from an independent solver's input where the iterations alone end 3e-3 m/s away.
 """
 
 from dataclasses import dataclass
@@ -24,12 +26,13 @@ _INPUT_SCALE = np.array([1e-2, 1e-2])
 _A_PATTERN = np.array([[1, 0, 1, 1], [0, 1, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=bool)
 _OSQP = {
     'verbose': False,
-    'eps_abs': 1e-3,
-    'eps_rel': 1e-3,
+    'eps_abs': 3e-4,
+    'eps_rel': 3e-4,
     'check_termination': 5,
-    'max_iter': 100,
+    'max_iter': 200,
     'adaptive_rho_interval': 25,
-    'polishing': False,
+    'scaling': 0,
+    'polishing': True,
 }
 
 
