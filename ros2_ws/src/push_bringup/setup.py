@@ -24,7 +24,7 @@ setup(
     entry_points={
         'console_scripts': [
             'cell = push_bringup.cell:main',
-            'bench = push_bringup.bench:main',
+            'parameters = push_bringup.parameters:main',
         ],
     },
 )

@@ -106,14 +106,19 @@ def _checked(values: dict[str, dict[str, Any]], overrides: Mapping[str, object])
     return CellParameters(*settings)
 
 
-def _defaults(values: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """Each node's own defaults, which depend on its profile."""
+def node_defaults(sim_profile: str, mpc_profile: str | None = None) -> dict[str, Any]:
+    """Each node's own defaults; controller and plant may be of different profiles."""
     return {
-        'sim_node': node_settings(str(values['sim_node'].get('profile', 'irb120'))),
+        'sim_node': node_settings(sim_profile),
         'gp_server': ServerSettings(),
-        'mpc_node': mpc_settings(str(values['mpc_node'].get('profile', 'irb120'))),
+        'mpc_node': mpc_settings(mpc_profile or sim_profile),
         'recorder': RecorderSettings(),
     }
+
+
+def _defaults(values: dict[str, dict[str, Any]]) -> dict[str, Any]:
+    profiles = (str(values[node].get('profile', 'irb120')) for node in ('sim_node', 'mpc_node'))
+    return node_defaults(*profiles)
 
 
 def _owners(defaults: Mapping[str, Any], name: str) -> list[tuple[str, str]]:
