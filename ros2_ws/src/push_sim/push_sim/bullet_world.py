@@ -1,17 +1,8 @@
-"""The world in PyBullet.
+"""The world in PyBullet: how it is reset, stepped and looked at.
 
-- The slider is a box on feet that stand on a circle, not on its corners: that gives the friction
-  moment of the measured limit surface.
-- The feet are springs. Four rigid feet share the weight as the solver's order of rows pleases,
-  and the slider turns to one side; springs share it as the load does.
-- The feet stand on the diagonals, and the axes of the physics follow the slider's heading.
-  Bullet's friction is parallel to the slip only where a foot is equally heavy along both axes;
-  with fixed axes a push would turn the slider by up to 10 % more or less with its heading.
-- The tip is a sphere, one contact point at half height, so heavy that the slider cannot slow it.
-- PyBullet multiplies the friction coefficients of two bodies: the slider has 1, table and tip
-  have theirs.
-- Multibody coordinates with cone friction: maximal coordinates are faster, but hold the friction
-  of a sticking contact to one direction.
+The axes of the physics follow the slider's heading. Bullet keeps friction parallel to the slip
+only along axes in which a foot is equally heavy, which here are those of the slider; with fixed
+axes the same push would turn the slider by a few per cent more or less with its heading.
 """
 
 import math
@@ -24,12 +15,15 @@ from push_core.quaternion import quaternion_to_yaw, yaw_to_quaternion
 from push_core.slider import Slider
 
 from push_sim.bullet import pybullet
+from push_sim.bullet_bodies import (
+    HALF_HEIGHT,
+    make_object,
+    make_table,
+    make_tip,
+    resting_height,
+)
 from push_sim.settings import WorldSettings
 
-_HALF_HEIGHT = 0.0065
-_FEET = 4
-_FOOT_RADIUS = 0.001
-_TIP_MASS = 1e6
 _CONTACT_RANGE = 1e-3
 _FOLLOW_TIME = 0.01
 _ASIDE = (0.0, 0.0, 10.0)
@@ -41,15 +35,14 @@ class BulletWorld:
     """A `World` of PyBullet, in a physics server of its own."""
 
     def __init__(self, settings: WorldSettings, slider: Slider) -> None:
-        self._settings = settings
+        self._substep = settings.substep
         self._client = pybullet.connect(pybullet.DIRECT)
-        self._set_up_solver()
-        self._table = self._make_table()
-        self._object = self._make_object(slider)
-        self._tip = self._make_tip(slider.tip_radius)
-        pybullet.setCollisionFilterPair(
-            self._tip, self._table, -1, -1, 0, physicsClientId=self._client
-        )
+        self._set_up_solver(settings)
+        table = make_table(self._client, settings)
+        self._object = make_object(self._client, settings, slider)
+        self._tip = make_tip(self._client, settings, slider)
+        pybullet.setCollisionFilterPair(self._tip, table, -1, -1, 0, physicsClientId=self._client)
+        self._resting_height = resting_height(settings, slider)
         # gravity takes this vertical speed from the tip in each step, so that it stays level
         self._lift = GRAVITY * settings.substep
         self._impulse: Array | None = None
@@ -68,7 +61,8 @@ class BulletWorld:
         self._set_axes(np.array(object_pose, dtype=float))
         self._steps_left = self._follow_steps
         self.place_object(object_pose)
-        self._place_tip(tip_position)
+        x, y = to_body(self._axes, tip_position).tolist()
+        self._place(self._tip, (x, y, HALF_HEIGHT), _UPRIGHT)
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """See `World.advance`."""
@@ -95,17 +89,15 @@ class BulletWorld:
     @property
     def object_pose(self) -> Array:
         """See `World.object_pose`."""
-        (x, y, _), (_, _, q_z, q_w) = pybullet.getBasePositionAndOrientation(
-            self._object, self._client
-        )
+        (x, y, _), (_, _, q_z, q_w) = self._where(self._object)
         theta = wrap_angle(self._axes[2] + quaternion_to_yaw(q_z, q_w))
         return np.array([*to_world(self._axes, np.array([x, y])), theta])
 
     @property
     def tip_position(self) -> Array:
         """See `World.tip_position`."""
-        position, _ = pybullet.getBasePositionAndOrientation(self._tip, self._client)
-        return to_world(self._axes, np.array(position[:2]))
+        (x, y, _), _ = self._where(self._tip)
+        return to_world(self._axes, np.array([x, y]))
 
     @property
     def contact(self) -> bool:
@@ -121,89 +113,20 @@ class BulletWorld:
         points = pybullet.getContactPoints(physicsClientId=self._client)
         return max((-float(point[distance]) for point in points), default=0.0)
 
-    @property
-    def _resting_height(self) -> float:
-        sinking = self._mass * GRAVITY / (_FEET * self._settings.stiffness)
-        return _HALF_HEIGHT - sinking
-
-    def _set_up_solver(self) -> None:
+    def _set_up_solver(self, settings: WorldSettings) -> None:
         pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=self._client)
         pybullet.setPhysicsEngineParameter(
-            fixedTimeStep=self._settings.substep,
-            numSolverIterations=self._settings.solver_iterations,
-            solverResidualThreshold=self._settings.solver_residual,
+            fixedTimeStep=settings.substep,
+            numSolverIterations=settings.solver_iterations,
+            solverResidualThreshold=settings.solver_residual,
             contactBreakingThreshold=_CONTACT_RANGE,
             enableConeFriction=1,
             deterministicOverlappingPairs=1,
             physicsClientId=self._client,
         )
 
-    def _make_table(self) -> int:
-        plane = pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=self._client)
-        table = self._make_body(0.0, plane, self._settings.friction_ground)
-        pybullet.changeDynamics(
-            table,
-            -1,
-            contactStiffness=self._settings.stiffness,
-            contactDamping=self._settings.damping,
-            physicsClientId=self._client,
-        )
-        return table
-
-    def _make_object(self, slider: Slider) -> int:
-        self._mass = slider.mass
-        body = self._make_body(slider.mass, self._object_shape(slider.side), 1.0)
-        yaw_inertia = slider.mass * slider.side**2 / 6.0
-        pybullet.changeDynamics(
-            body,
-            -1,
-            localInertiaDiagonal=(0.5 * yaw_inertia, 0.5 * yaw_inertia, yaw_inertia),
-            physicsClientId=self._client,
-        )
-        return body
-
-    def _object_shape(self, side: float) -> int:
-        """A box, clear of the table, on spheres as feet."""
-        half_box = (side / 2.0, side / 2.0, _HALF_HEIGHT - _FOOT_RADIUS)
-        return int(
-            pybullet.createCollisionShapeArray(
-                shapeTypes=[pybullet.GEOM_SPHERE] * _FEET + [pybullet.GEOM_BOX],
-                radii=[_FOOT_RADIUS] * _FEET + [0.0],
-                halfExtents=[_REST] * _FEET + [half_box],
-                collisionFramePositions=[*self._foot_positions(), (0.0, 0.0, _FOOT_RADIUS)],
-                physicsClientId=self._client,
-            )
-        )
-
-    def _foot_positions(self) -> list[tuple[float, float, float]]:
-        aside, height = self._settings.support_radius / math.sqrt(2.0), _FOOT_RADIUS - _HALF_HEIGHT
-        return [(x, y, height) for x in (-aside, aside) for y in (-aside, aside)]
-
-    def _make_tip(self, radius: float) -> int:
-        sphere = pybullet.createCollisionShape(
-            pybullet.GEOM_SPHERE, radius=radius, physicsClientId=self._client
-        )
-        return self._make_body(_TIP_MASS, sphere, self._settings.friction_pusher)
-
-    def _make_body(self, mass: float, shape: int, friction: float) -> int:
-        body = int(pybullet.createMultiBody(mass, shape, physicsClientId=self._client))
-        pybullet.changeDynamics(
-            body,
-            -1,
-            lateralFriction=friction,
-            spinningFriction=0.0,
-            rollingFriction=0.0,
-            restitution=0.0,
-            linearDamping=0.0,
-            angularDamping=0.0,
-            activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
-            physicsClientId=self._client,
-        )
-        return body
-
     def _run(self, velocity: Pair, substeps: int) -> None:
-        (cos, sin), (x, y) = self._heading, velocity
-        linear = (cos * x + sin * y, cos * y - sin * x, self._lift)
+        linear = (*_turned(velocity, *self._heading), self._lift)
         client, tip = self._client, self._tip
         for _ in range(substeps):
             pybullet.resetBaseVelocity(tip, linear, _REST, physicsClientId=client)
@@ -215,31 +138,37 @@ class BulletWorld:
 
     def _follow_heading(self) -> None:
         """Turns the axes of the physics along the slider and moves their origin under it."""
-        tip = self.tip_position
-        axes = self.object_pose
-        linear, angular = pybullet.getBaseVelocity(self._object, self._client)
-        (_, _, height), orientation = pybullet.getBasePositionAndOrientation(
-            self._object, self._client
-        )
-        back = yaw_to_quaternion(float(self._axes[2] - axes[2]))
+        client = self._client
+        (x, y, height), orientation = self._where(self._object)
+        linear, angular = pybullet.getBaseVelocity(self._object, client)
+        (tip_x, tip_y, _), _ = self._where(self._tip)
+        yaw = quaternion_to_yaw(*orientation[2:])
+        heading = math.cos(yaw), math.sin(yaw)
+        back = yaw_to_quaternion(-yaw)
         _, level = pybullet.multiplyTransforms(_REST, back, _REST, orientation)
-        turned = [pybullet.rotateVector(back, vector) for vector in (linear, angular)]
-        self._set_axes(axes)
-        self._steps_left = self._follow_steps
-        pybullet.resetBasePositionAndOrientation(
-            self._object, (0.0, 0.0, height), level, physicsClientId=self._client
-        )
-        pybullet.resetBaseVelocity(self._object, *turned, physicsClientId=self._client)
-        self._place_tip(tip)
+        tip = _turned((tip_x - x, tip_y - y), *heading)
 
-    def _place_tip(self, position: Array) -> None:
-        x, y = to_body(self._axes, position).tolist()
-        self._place(self._tip, (x, y, _HALF_HEIGHT), _UPRIGHT)
+        self._place(self._object, (0.0, 0.0, height), level)
+        pybullet.resetBaseVelocity(
+            self._object,
+            (*_turned(linear[:2], *heading), linear[2]),
+            (*_turned(angular[:2], *heading), angular[2]),
+            physicsClientId=client,
+        )
+        self._place(self._tip, (*tip, HALF_HEIGHT), _UPRIGHT)
+        origin = to_world(self._axes, np.array([x, y]))
+        self._set_axes(np.array([*origin, wrap_angle(self._axes[2] + yaw)]))
+        self._steps_left = self._follow_steps
 
     def _forget_contacts(self) -> None:
         """Lifts the slider off everything for a step, so that no cached contact is left."""
         self._place(self._object, _ASIDE, _UPRIGHT)
         pybullet.stepSimulation(self._client)
+
+    def _where(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Position [m] and quaternion of a body in the axes of the physics."""
+        position, orientation = pybullet.getBasePositionAndOrientation(body, self._client)
+        return position, orientation
 
     def _place(
         self, body: int, position: tuple[float, ...], orientation: tuple[float, ...]
@@ -250,8 +179,8 @@ class BulletWorld:
         pybullet.resetBaseVelocity(body, _REST, _REST, physicsClientId=self._client)
 
     def _apply_impulse(self, impulse: Array) -> None:
-        force = rotation(self._axes[2]).T @ impulse / self._settings.substep
-        position, _ = pybullet.getBasePositionAndOrientation(self._object, self._client)
+        force = rotation(self._axes[2]).T @ impulse / self._substep
+        position, _ = self._where(self._object)
         pybullet.applyExternalForce(
             self._object,
             -1,
@@ -261,3 +190,8 @@ class BulletWorld:
             physicsClientId=self._client,
         )
         self._impulse = None
+
+
+def _turned(vector: Pair, cos: float, sin: float) -> Pair:
+    """A vector as seen from axes that are turned by the angle of this cosine and sine."""
+    return cos * vector[0] + sin * vector[1], cos * vector[1] - sin * vector[0]

@@ -1,0 +1,101 @@
+"""The bodies of the PyBullet world: table, slider and tip.
+
+- The slider is a box on four feet that stand on a circle, not on its corners: that gives the
+  friction moment of the measured limit surface.
+- The feet are springs. Four rigid feet share the weight as the solver's order of rows pleases,
+  and the slider turns to one side; springs share it as the load does.
+- The tip is a sphere, one contact point at half height, so heavy that the slider cannot slow it.
+- PyBullet multiplies the friction coefficients of two bodies: the slider has 1, table and tip
+  have theirs.
+- Multibody coordinates with cone friction: maximal coordinates are faster, but hold the friction
+  of a sticking contact to one direction.
+"""
+
+import math
+
+from push_core.limit_surface import GRAVITY
+from push_core.slider import Slider
+
+from push_sim.bullet import pybullet
+from push_sim.settings import WorldSettings
+
+HALF_HEIGHT = 0.0065
+"""Height [m] of the slider's and of the tip's centre."""
+
+_FEET = 4
+_FOOT_RADIUS = 0.001
+_TIP_MASS = 1e6
+
+
+def make_table(client: int, settings: WorldSettings) -> int:
+    """The table, a plane at height zero; it holds the springs of the feet that stand on it."""
+    plane = pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client)
+    table = _make_body(client, 0.0, plane, settings.friction_ground)
+    pybullet.changeDynamics(
+        table,
+        -1,
+        contactStiffness=settings.stiffness,
+        contactDamping=settings.damping,
+        physicsClientId=client,
+    )
+    return table
+
+
+def make_object(client: int, settings: WorldSettings, slider: Slider) -> int:
+    """The slider."""
+    shape = _object_shape(client, settings.support_radius, slider.side)
+    body = _make_body(client, slider.mass, shape, 1.0)
+    yaw_inertia = slider.mass * slider.side**2 / 6.0
+    pybullet.changeDynamics(
+        body,
+        -1,
+        localInertiaDiagonal=(0.5 * yaw_inertia, 0.5 * yaw_inertia, yaw_inertia),
+        physicsClientId=client,
+    )
+    return body
+
+
+def make_tip(client: int, settings: WorldSettings, slider: Slider) -> int:
+    """The round tip."""
+    sphere = pybullet.createCollisionShape(
+        pybullet.GEOM_SPHERE, radius=slider.tip_radius, physicsClientId=client
+    )
+    return _make_body(client, _TIP_MASS, sphere, settings.friction_pusher)
+
+
+def resting_height(settings: WorldSettings, slider: Slider) -> float:
+    """Height [m] at which the springs of the feet carry the slider."""
+    return HALF_HEIGHT - slider.mass * GRAVITY / (_FEET * settings.stiffness)
+
+
+def _object_shape(client: int, support_radius: float, side: float) -> int:
+    """A box, clear of the table, with spheres as feet on its diagonals."""
+    aside, height = support_radius / math.sqrt(2.0), _FOOT_RADIUS - HALF_HEIGHT
+    feet = [(x, y, height) for x in (-aside, aside) for y in (-aside, aside)]
+    half_box = (side / 2.0, side / 2.0, HALF_HEIGHT - _FOOT_RADIUS)
+    return int(
+        pybullet.createCollisionShapeArray(
+            shapeTypes=[pybullet.GEOM_SPHERE] * _FEET + [pybullet.GEOM_BOX],
+            radii=[_FOOT_RADIUS] * _FEET + [0.0],
+            halfExtents=[(0.0, 0.0, 0.0)] * _FEET + [half_box],
+            collisionFramePositions=[*feet, (0.0, 0.0, _FOOT_RADIUS)],
+            physicsClientId=client,
+        )
+    )
+
+
+def _make_body(client: int, mass: float, shape: int, friction: float) -> int:
+    body = int(pybullet.createMultiBody(mass, shape, physicsClientId=client))
+    pybullet.changeDynamics(
+        body,
+        -1,
+        lateralFriction=friction,
+        spinningFriction=0.0,
+        rollingFriction=0.0,
+        restitution=0.0,
+        linearDamping=0.0,
+        angularDamping=0.0,
+        activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+        physicsClientId=client,
+    )
+    return body
