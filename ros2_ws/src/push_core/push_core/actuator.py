@@ -74,18 +74,23 @@ class Actuator:
         self._queue.append((acts_at, _shortened(wanted, self.settings.speed_limit)))
 
     def advance(self, now: float, duration: float) -> Pair:
-        """Moves on by `duration` [s] from `now` [s]; returns the mean velocity over it [m/s]."""
-        self._take_commands(now)
-        (x, y), (target_x, target_y) = self._velocity, self._target
-        lag = self.settings.lag
-        reached = 1.0 - math.exp(-duration / lag) if lag > 0.0 else 1.0
-        change = ((target_x - x) * reached, (target_y - y) * reached)
-        allowed = _shortened(change, self.settings.acceleration_limit * duration)
-        self._velocity = (x + allowed[0], y + allowed[1])
-        if allowed is not change:
-            return x + 0.5 * allowed[0], y + 0.5 * allowed[1]
-        part = lag / duration
-        return target_x - part * change[0], target_y - part * change[1]
+        """Moves on by `duration` [s] from `now` [s]; returns the mean velocity over it [m/s].
+
+        A command that begins to act in between does so at its own instant.
+        """
+        moved_x = moved_y = 0.0
+        start, end = now, now + duration
+        while self._queue and self._queue[0][0] < end - _TIME_TOLERANCE:
+            acts_at, target = self._queue.popleft()
+            if acts_at > start + _TIME_TOLERANCE:
+                x, y = self._approach(acts_at - start)
+                moved_x, moved_y = moved_x + x * (acts_at - start), moved_y + y * (acts_at - start)
+                start = acts_at
+            self._target = target
+        if start == now:
+            return self._approach(duration)
+        x, y = self._approach(end - start)
+        return (moved_x + x * (end - start)) / duration, (moved_y + y * (end - start)) / duration
 
     def brake(self, duration: float) -> Pair:
         """Drops all commands and slows down for `duration` [s]; returns the mean velocity."""
@@ -102,9 +107,18 @@ class Actuator:
         self._target = other._target
         self._queue = other._queue.copy()
 
-    def _take_commands(self, now: float) -> None:
-        while self._queue and self._queue[0][0] <= now + _TIME_TOLERANCE:
-            self._target = self._queue.popleft()[1]
+    def _approach(self, duration: float) -> Pair:
+        """Approaches the target for `duration` [s]; returns the mean velocity."""
+        (x, y), (target_x, target_y) = self._velocity, self._target
+        lag = self.settings.lag
+        reached = 1.0 - math.exp(-duration / lag) if lag > 0.0 else 1.0
+        change = ((target_x - x) * reached, (target_y - y) * reached)
+        allowed = _shortened(change, self.settings.acceleration_limit * duration)
+        self._velocity = (x + allowed[0], y + allowed[1])
+        if allowed is not change:
+            return x + 0.5 * allowed[0], y + 0.5 * allowed[1]
+        part = lag / duration
+        return target_x - part * change[0], target_y - part * change[1]
 
 
 def _shortened(vector: Pair, length: float) -> Pair:

@@ -10,8 +10,8 @@ Array: TypeAlias = NDArray[Any]
 
 
 def wrap_angle(angle: float) -> float:
-    """The same angle [rad] in [-pi, pi)."""
-    return (angle + math.pi) % (2.0 * math.pi) - math.pi
+    """The same angle [rad] in [-pi, pi], without rounding."""
+    return math.remainder(angle, math.tau)
 
 
 def rotation(theta: float) -> Array:

@@ -52,8 +52,9 @@ class MotionCone:
         p_y, beta = np.asarray(p_y, dtype=float), np.asarray(beta, dtype=float)
         v_n, v_t = np.sin(beta), np.cos(beta)
         left, right = (self._edge(p_y, sign) for sign in (1.0, -1.0))
-        slides_left = v_t * left[0] > left[1] * v_n
-        slides_right = v_t * right[0] < right[1] * v_n
+        # an edge that leans backwards, with much friction, has no push into the face beyond it
+        slides_left = (left[0] > 0.0) & (v_t * left[0] > left[1] * v_n)
+        slides_right = (right[0] > 0.0) & (v_t * right[0] < right[1] * v_n)
         return np.subtract(slides_left, slides_right, dtype=float)
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
