@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+from push_core.errors import InputError
 from push_core.frames import Array, rotation
 
 from push_sim.settings import PerturbationSettings
@@ -19,6 +20,9 @@ class Kind(IntEnum):
     IMPULSE = 2
 
 
+LARGEST_MAGNITUDE = 1.0
+"""In m or N s."""
+
 DEFAULT_MAGNITUDE = {Kind.NORMAL: 0.03, Kind.TANGENTIAL: 0.02, Kind.IMPULSE: 0.3}
 
 
@@ -32,11 +36,22 @@ class Perturbation:
             IMPULSE knocks its centre.
         magnitude: [m], or [N s] of an impulse.
         angle: world direction of an impulse [rad].
+
+    Raises:
+        InputError: the size is out of range, or would move the object into the tip.
     """
 
     kind: Kind
     magnitude: float
     angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        low = 0.0 if self.kind == Kind.NORMAL else -LARGEST_MAGNITUDE
+        if not low <= self.magnitude <= LARGEST_MAGNITUDE or not math.isfinite(self.angle):
+            raise InputError(
+                f'magnitude of a {self.kind.name.lower()} perturbation is {self.magnitude:g}, '
+                f'must be between {low:g} and {LARGEST_MAGNITUDE:g}, its angle finite'
+            )
 
     def direction(self, object_pose: Array) -> Array:
         """World unit vector (2,) in which an object at a pose (3,) is moved or knocked."""

@@ -155,6 +155,12 @@ def test_an_impulse_slides_the_object_until_friction_has_stopped_it(ideal, slide
     assert np.arctan2(moved[1], moved[0]) == pytest.approx(1.0, abs=1e-3)
 
 
+def test_a_perturbation_that_makes_no_sense_is_refused() -> None:
+    for kind, magnitude in [(Kind.NORMAL, -0.01), (Kind.IMPULSE, 2.0), (Kind.NORMAL, np.nan)]:
+        with pytest.raises(InputError, match=kind.name.lower()):
+            Perturbation(kind, magnitude)
+
+
 def test_a_scheduled_perturbation_waits_for_its_time_after_the_first_motion(
     slider: Slider, start
 ) -> None:
