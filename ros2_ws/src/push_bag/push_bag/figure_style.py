@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 BLUE, ORANGE, GREEN, RED = '#0072b2', '#e69f00', '#009e73', '#d55e00'
 INK, GREY, PALE, FAINT = '#1f2933', '#8a94a0', '#c3cad1', '#e4e8ec'
 LOW_TO_HIGH = ((0.0, '#2b6cb0'), (0.5, '#b569a8'), (1.0, '#d7301f'))
-MOST_POINTS = 6000  # of one series; a minute at 100 Hz is drawn in full
+MOST_POINTS = 5000  # of one series; keeps a run of any length below 6 MB
 
 FONT = {'family': 'system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif', 'size': 13}
 AXIS = {

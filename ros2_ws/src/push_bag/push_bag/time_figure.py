@@ -1,5 +1,7 @@
 """The run over time: errors, contact and inputs on one linked axis."""
 
+from typing import Any
+
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
@@ -9,6 +11,8 @@ from push_bag.contact import Contact, loss_intervals
 from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled, thinned
 from push_bag.series import Floats, Reference, RunSeries
 from push_bag.tracking import Tracking, reference_times
+
+Shape = dict[str, Any]  # as plotly takes it
 
 # title of each row, and values that its axis shows in any case: noise shall look like noise
 ROWS = (
@@ -35,8 +39,7 @@ def time_figure(
     _add_errors(figure, tracking)
     _add_contact(figure, run, reference, contact)
     _add_inputs(figure, run)
-    _mark_losses(figure, run, contact)
-    _mark_disturbances(figure, run, contact)
+    _mark_events(figure, run, contact)
     _explain(figure)
     styled(figure, HEIGHT, hovermode='x unified')
     for row, (title, shown) in enumerate(ROWS, start=1):
@@ -84,41 +87,47 @@ def _add_limited(figure: go.Figure, time: Floats, speed: Floats, bits: Floats) -
     figure.add_trace(marks, row=5, col=1)
 
 
-def _mark_losses(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+def _loss_bands(run: RunSeries, contact: Contact) -> list[Shape]:
     """A grey band through all rows for each interval without contact."""
-    intervals = loss_intervals(contact)
-    for interval in intervals:
-        start, end = reference_times(run, np.array(interval))
-        _mark(figure, 'rect', start, end, GREY)
-    if intervals:
-        _add_key(figure, 'no contact', {'symbol': 'square', 'color': GREY, 'size': 10})
+    intervals = np.array(loss_intervals(contact), np.int64).reshape(-1, 2)
+    if not intervals.size:
+        return []
+    times = reference_times(run, intervals.ravel()).reshape(-1, 2)
+    return [_shape('rect', start, end, GREY) for start, end in times.tolist()]
 
 
-def _mark_disturbances(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+def _disturbance_lines(run: RunSeries, contact: Contact) -> list[Shape]:
     """A red line through all rows for each perturbation."""
     if not contact.stamp.size:
-        return
-    for each in run.disturbances:
-        (time,) = reference_times(run, np.array([each.stamp]))
-        _mark(figure, 'line', time, time, RED)
-    if run.disturbances:
+        return []
+    stamps = np.array([each.stamp for each in run.disturbances], np.int64)
+    return [_shape('line', time, time, RED) for time in reference_times(run, stamps).tolist()]
+
+
+def _mark_events(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
+    bands, lines = _loss_bands(run, contact), _disturbance_lines(run, contact)
+    # all at once: adding shapes one by one takes time quadratic in their number
+    figure.update_layout(shapes=bands + lines)
+    if bands:
+        _add_key(figure, 'no contact', {'symbol': 'square', 'color': GREY, 'size': 10})
+    if lines:
         _add_key(figure, 'perturbation', {'symbol': 'line-ns-open', 'color': RED, 'size': 10})
 
 
-def _mark(figure: go.Figure, kind: str, start: float, end: float, colour: str) -> None:
-    figure.add_shape(
-        type=kind,
-        xref=TIME_AXIS,
-        yref='paper',
-        x0=start,
-        x1=end,
-        y0=0.0,
-        y1=1.0,
-        layer='below',
-        fillcolor=colour,
-        opacity=0.4,
-        line={'color': colour, 'width': 1.5},
-    )
+def _shape(kind: str, start: float, end: float, colour: str) -> Shape:
+    return {
+        'type': kind,
+        'xref': TIME_AXIS,
+        'yref': 'paper',
+        'x0': start,
+        'x1': end,
+        'y0': 0.0,
+        'y1': 1.0,
+        'layer': 'below',
+        'fillcolor': colour,
+        'opacity': 0.4,
+        'line': {'color': colour, 'width': 1.5},
+    }
 
 
 def _add_key(figure: go.Figure, name: str, marker: dict[str, object]) -> None:
