@@ -51,18 +51,17 @@ train() {
   ros2 run push_gp train "$1" --points 200 --seed 0 -o "$2"
 }
 
-# push MODEL: writes the run's folder, which is the last line of `cell`; shows all of it meanwhile.
+# push MODEL: writes the run's folder, which is the last line of `cell`; shows the rest meanwhile, with
+# the score at its end.
 push() {
   ros2 run push_bringup cell --track eight --speed 0.08 --controller gp --model "$1" -o runs/ |
-    tee /dev/stderr | tail -n 1
+    tee >(cat >&2) | tail -n 1
 }
 
-# compare RUN: the score, beside what the paper reached on the real robot.
+# compare RUN: what the paper reached on the real robot, below our score, and where to look.
 compare() {
+  echo 'paper              mean 8.50 mm (GP, 5000 points), 9.56 mm (analytical); real robot, same track and speed'
   echo
-  ros2 run push_bag score "$1"
-  echo
-  echo 'paper (real robot, same track and speed): mean tracking error 8.50 mm GP of 5000 points, 9.56 mm analytical'
   echo "run     $1"
   echo "json    $1/score.json"
   echo "report  $1/report.html"
