@@ -5,10 +5,10 @@ from collections.abc import Callable
 
 from push_gp.model import PushModel
 from push_mpc.controller import Controller, Mode, Tick
-from push_mpc.conversions import seconds
 from push_mpc.model_client import model_grid
 from push_mpc.planning import planned
 from push_mpc.surrogate import Table
+from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 
 from push_bringup.cell_parameters import CellParameters
@@ -51,8 +51,8 @@ class InProcessCell:
             tick = self.controller.step(
                 observation.object_pose,
                 observation.tip_position,
-                seconds(nanoseconds(observation.time) - origin),
-                seconds(nanoseconds(self.plant.time) - origin),
+                to_seconds(nanoseconds(observation.time) - origin),
+                to_seconds(nanoseconds(self.plant.time) - origin),
             )
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
             self.plant.command(tick.velocity, self.plant.time)

@@ -12,6 +12,7 @@ from push_mpc import conversions as mpc
 from push_mpc.controller import Controller, Mode, Tick
 from push_mpc.node_settings import MpcSettings
 from push_msgs.msg import ControllerState
+from push_node.stamps import to_stamp
 from push_sim import conversions as sim
 from push_sim.plant import Observation, Plant
 from rclpy.serialization import serialize_message
@@ -35,7 +36,7 @@ class InProcessRecord:
 
     def head(self, settings: MpcSettings, info: ModelInfo) -> None:
         """Plan and model, before the first tick."""
-        stamp = sim.to_stamp(nanoseconds(self._plant.START))
+        stamp = to_stamp(nanoseconds(self._plant.START))
         plan = mpc.nominal_message(self._controller.plan, settings)
         plan.header.stamp = stamp
         self._write('nominal_trajectory', plan)
@@ -44,11 +45,11 @@ class InProcessRecord:
     def tick(self, observation: Observation, tick: Tick, tick_ms: float) -> None:
         """One tick: what was seen, commanded and thought."""
         stamp_ns = nanoseconds(observation.time)
-        stamp = sim.to_stamp(stamp_ns)
+        stamp = to_stamp(stamp_ns)
         self._write('pusher_pose', sim.position_message(observation.tip_position, stamp))
         self._write('object_pose', sim.pose_message(observation.object_pose, stamp))
         for disturbance in self._plant.take_disturbances():
-            happened = sim.to_stamp(nanoseconds(disturbance.time))
+            happened = to_stamp(nanoseconds(disturbance.time))
             self._write('perturbation', sim.perturbation_message(disturbance, happened))
         self._write_command(tick, stamp_ns)
         self._write_state(tick, stamp_ns, tick_ms)

@@ -14,7 +14,7 @@ from push_gp.prior import OVER_CONE, OVER_ZERO, priors
 
 
 def learned(
-    pushes: PushSet, mean: str = 'zero', progress: Callable[[str], None] = lambda _output: None
+    pushes: PushSet, mean: str = 'zero', progress: Callable[[str], object] = lambda _output: None
 ) -> GpModel:
     """The most likely model of a push set; the same set gives the same model bit for bit.
 

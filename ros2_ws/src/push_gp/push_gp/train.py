@@ -7,16 +7,17 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from push_core.accuracy import OUTPUTS
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
+from tqdm import tqdm
 
 from push_gp.gp_model import GpModel
 from push_gp.learn import learned
 from push_gp.mean_function import MEAN_FUNCTIONS
 from push_gp.model_file import save_model
-from push_gp.progress import Progress
 from push_gp.sampling import Rows, die_rows, nested_rows, random_rows, subset_rows
 from push_gp.summary import training_summary
 
@@ -84,11 +85,10 @@ def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
 
 
 def _trained(pushes: PushSet, mean: str) -> GpModel:
-    progress = Progress(f'fitting {len(pushes)} pushes')
     started = time.monotonic()
-    model = learned(pushes, mean, progress.step)
+    with tqdm(desc=f'fitting {len(pushes)} pushes', total=len(OUTPUTS), disable=None) as bar:
+        model = learned(pushes, mean, lambda _output: bar.update())
     seconds = time.monotonic() - started
-    progress.done()
     sys.stdout.write(
         f'{len(pushes)} pushes of {pushes.distance * 1e3:g} mm, {mean} mean, '
         f'fitted in {seconds:.1f} s\n'

@@ -4,33 +4,21 @@ import math
 from pathlib import Path
 
 import numpy as np
-from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.frames import Array
 from push_core.quaternion import quaternion_to_yaw
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Predict
+from push_node.stamps import to_stamp
 
 from push_mpc.controller import Tick
 from push_mpc.node_settings import MpcSettings
 from push_mpc.nominal import Plan
 
-NANOSECONDS = 1_000_000_000
-
-
-def nanoseconds(stamp: Time) -> int:
-    """A stamp as one whole number [ns]."""
-    return int(stamp.sec * NANOSECONDS + stamp.nanosec)
-
-
-def seconds(duration: int) -> float:
-    """A duration [ns] in seconds."""
-    return duration / NANOSECONDS
-
 
 def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:
     """Writes a stamp [ns] into a message's header."""
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, NANOSECONDS)
+    message.header.stamp = to_stamp(stamp)
 
 
 def planar_pose(message: PoseStamped) -> Array:

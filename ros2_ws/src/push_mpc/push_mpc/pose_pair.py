@@ -5,10 +5,9 @@ from collections.abc import Callable
 
 from geometry_msgs.msg import PoseStamped
 from push_node import qos
+from push_node.stamps import to_nanoseconds, to_seconds
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
-
-from push_mpc.conversions import nanoseconds, seconds
 
 
 class PosePair:
@@ -65,16 +64,16 @@ class PosePair:
 
     def _on_object(self, message: PoseStamped) -> None:
         self.object_pose = message
-        self._object_stamp = nanoseconds(message.header.stamp)
+        self._object_stamp = to_nanoseconds(message.header.stamp)
         self._handle_if_complete()
 
     def _on_tip(self, message: PoseStamped) -> None:
         self.tip = message
-        self._tip_stamp = nanoseconds(message.header.stamp)
+        self._tip_stamp = to_nanoseconds(message.header.stamp)
         self._handle_if_complete()
 
     def _on_clock(self, message: Clock) -> None:
-        self._clock = nanoseconds(message.clock)
+        self._clock = to_nanoseconds(message.clock)
         if self._clock == self._handled_clock:
             self._on_repeat()
         else:
@@ -91,4 +90,4 @@ class PosePair:
         self._arrival = time.monotonic()
         self.seen = True
         now = self._clock if self._lockstep else self._node_clock.now().nanoseconds
-        self._on_pair(stamp, seconds(stamp - self._origin), seconds(now - self._origin))
+        self._on_pair(stamp, to_seconds(stamp - self._origin), to_seconds(now - self._origin))

@@ -14,9 +14,9 @@ from push_core.frames import Array
 from push_core.push_csv import write_pushes
 from push_core.push_set import PushSet
 from push_core.slider import Slider
+from tqdm import tqdm
 
 from push_sim.collector import Collector, PushDesign
-from push_sim.progress_bar import with_progress
 from push_sim.settings import PROFILES, profile
 
 _CHUNK = 50
@@ -42,8 +42,8 @@ def collect(
     """
     design = design or PushDesign()
     make = partial(Collector, profile(profile_name), Slider(), design)
-    rows = with_progress(_rows(make, pushes, seed, jobs), pushes, 'collecting')
-    table = np.array(list(rows))
+    rows = _rows(make, pushes, seed, jobs)
+    table = np.array(list(tqdm(rows, 'collecting', pushes, unit=' pushes', disable=None)))
     return PushSet(table[:, 0], table[:, 1], table[:, 2:], design.distance)
 
 

@@ -10,17 +10,6 @@ from push_msgs.msg import Perturbation as PerturbationMessage
 from push_sim.perturbation import Disturbance
 
 FRAME = 'world'
-_SECOND = 1_000_000_000
-
-
-def to_stamp(nanoseconds: int) -> Time:
-    """A time stamp of whole nanoseconds."""
-    return Time(sec=nanoseconds // _SECOND, nanosec=nanoseconds % _SECOND)
-
-
-def to_nanoseconds(stamp: Time) -> int:
-    """Whole nanoseconds of a time stamp."""
-    return int(stamp.sec) * _SECOND + int(stamp.nanosec)
 
 
 def pose_message(pose: Array, stamp: Time) -> PoseStamped:

@@ -13,6 +13,7 @@ from push_node.parameters import declared, override
 from push_node.qos import COMMAND, EVENT, POSE, SCENE
 from push_node.realtime import settle
 from push_node.spin import run_node
+from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
 from visualization_msgs.msg import MarkerArray
 
@@ -21,8 +22,6 @@ from push_sim.conversions import (
     perturbation_message,
     pose_message,
     position_message,
-    to_nanoseconds,
-    to_stamp,
 )
 from push_sim.lockstep_pace import LockstepPace
 from push_sim.node_settings import NodeSettings, node_settings

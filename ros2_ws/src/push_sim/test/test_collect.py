@@ -10,7 +10,6 @@ from push_core.slider import Slider
 from push_sim.bullet_world import BulletWorld
 from push_sim.collect import collect, main
 from push_sim.collector import Collector, PushDesign
-from push_sim.progress_bar import bar
 from push_sim.settings import profile
 
 
@@ -92,8 +91,3 @@ def test_a_collection_is_written_as_it_was_made(tmp_path: Path) -> None:
     output = tmp_path / 'pushes.csv'
     assert main(['--pushes', '4', '--seed', '7', '-o', str(output)]) == 0
     assert np.array_equal(read_pushes(output).displacement, collect(4, 7).displacement)
-
-
-def test_the_bar_fills() -> None:
-    assert bar('x', 1, 2).count('#') == 15
-    assert bar('x', 2, 2).endswith('2/2')

@@ -16,7 +16,7 @@ from push_msgs.msg import Perturbation
 from push_msgs.srv import Perturb, Reset
 from push_node.qos import COMMAND, EVENT, POSE
 from push_node.spin import Spinner
-from push_sim.conversions import to_nanoseconds
+from push_node.stamps import to_nanoseconds
 from push_sim.plant import Plant
 from push_sim.settings import profile
 from rclpy.node import Node
