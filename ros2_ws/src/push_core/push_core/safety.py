@@ -90,13 +90,16 @@ def _limit_speed(velocity: Array, speed: float) -> tuple[Array, int]:
 
 
 def _limit_workspace(velocity: Array, position: Array, limits: SafetyLimits) -> tuple[Array, int]:
-    """Keeps each axis slow enough to stop, v <= sqrt(2 a d), after the reaction time."""
+    """Keeps each axis slow enough to stop, v <= sqrt(2 a d), after the reaction time.
+
+    The commands already under way may all be of full speed, whatever this one asks for.
+    """
     allowed = np.array(velocity)
+    blind = limits.speed * limits.reaction_time
     for axis, edge in enumerate((limits.workspace_x, limits.workspace_y)):
         speed = abs(allowed[axis])
-        room = edge - math.copysign(position[axis], position[axis] * allowed[axis])
-        room -= speed * limits.reaction_time
-        fastest = math.sqrt(2.0 * limits.deceleration * max(room, 0.0))
+        room = edge - blind - math.copysign(1.0, allowed[axis]) * position[axis]
+        fastest = math.sqrt(2.0 * limits.deceleration) * math.sqrt(max(room, 0.0))
         if speed > fastest:
             allowed[axis] = math.copysign(fastest, allowed[axis])
     return allowed, 0 if np.array_equal(allowed, velocity) else WORKSPACE

@@ -217,17 +217,30 @@ def from_csv(path: Path) -> Track:
 
 def _read_points(path: Path) -> Array:
     try:
-        lines = path.read_text(encoding='utf-8').splitlines()
+        lines = path.read_text(encoding='utf-8-sig').splitlines()
     except OSError as error:
         raise InputError(f'{path}: {error.strerror}') from error
     except UnicodeDecodeError as error:
         raise InputError(f'{path}: not a text file') from error
     rows = []
     for number, text in enumerate(lines, start=1):
-        if not text.strip() or (number == 1 and text[0].isalpha()):
+        if not text.strip() or (number == 1 and _is_heading(text)):
             continue
         rows.append(_point(text, f'{path}:{number}'))
     return np.array(rows).reshape(-1, 2)
+
+
+def _is_heading(text: str) -> bool:
+    """Whether no field is a number, not even `nan`, which would be a fault."""
+    return not any(map(_is_number, text.split(',')))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _point(text: str, place: str) -> tuple[float, float]:

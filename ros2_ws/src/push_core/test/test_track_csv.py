@@ -1,0 +1,94 @@
+import math
+
+import numpy as np
+import pytest
+from push_core.errors import InputError
+from push_core.tracks import MAX_KNOTS, by_name, from_csv
+
+POINTS = np.array([[0.0, 0.0], [0.1, 0.02], [0.2, 0.0], [0.3, -0.02], [0.4, 0.0]])
+GOOD = '0.0,0.0\n0.1,0.0\n0.2,0.1\n0.3,0.1\n'
+
+
+def refusal(path) -> str:
+    with pytest.raises(InputError) as caught:
+        from_csv(path)
+    message = str(caught.value)
+    assert str(path) in message
+    assert '\n' not in message
+    return message
+
+
+def test_a_circle_of_points_is_a_circle(circle_csv) -> None:
+    track = by_name(str(circle_csv))
+    assert (track.name, track.closed) == ('circle', True)
+    assert track.length == pytest.approx(2.0 * math.pi * 0.2, rel=1e-5)
+    x, y, _, curvature = track.at(np.linspace(0.0, track.length, 1000))
+    assert np.hypot(x, y) == pytest.approx(np.full(1000, 0.2), abs=1e-7)
+    assert curvature == pytest.approx(np.full(1000, 5.0), rel=2e-3)
+
+
+def test_an_open_track_begins_and_ends_at_its_points(write_track) -> None:
+    track = from_csv(write_track(POINTS))
+    x, y, _, _ = track.at(np.array([0.0, track.length]))
+    assert not track.closed
+    assert (x.tolist(), y.tolist()) == (pytest.approx([0.0, 0.4]), pytest.approx([0.0, 0.0]))
+
+
+@pytest.mark.parametrize('heading', ['', 'x,y\n', ' x [m], y [m]\n', '\ufeffx,y\n', '\n\n'])
+def test_a_heading_a_byte_order_mark_and_blank_lines_do_no_harm(write_track, heading) -> None:
+    with_heading = from_csv(write_track(POINTS, heading))
+    assert with_heading.length == from_csv(write_track(POINTS)).length
+
+
+def test_points_that_repeat_do_no_harm(write_track) -> None:
+    repeated = from_csv(write_track(np.repeat(POINTS, 3, axis=0)))
+    assert repeated.length == from_csv(write_track(POINTS)).length
+
+
+def test_very_many_points_are_thinned_by_arc_length(write_track) -> None:
+    # crowded at one end, as a drawing tool would leave them
+    angle = 0.5 * math.pi * np.linspace(0.0, 1.0, 5 * MAX_KNOTS) ** 3
+    track = from_csv(write_track(0.3 * np.stack([np.sin(angle), np.cos(angle)], axis=-1)))
+    assert track.length == pytest.approx(0.5 * math.pi * 0.3, rel=1e-5)
+    x, y, _, _ = track.at(np.linspace(0.0, track.length, 500))
+    assert np.hypot(x, y) == pytest.approx(np.full(500, 0.3), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('row', 'fault'),
+    [
+        ('0.4', 'expected two numbers x,y in metres'),
+        ('0.4,0.1,0.2', 'expected two numbers x,y in metres'),
+        ('0.4;0.1', 'expected two numbers x,y in metres'),
+        ('0.4,', 'expected two numbers x,y in metres'),
+        ('x,y', 'expected two numbers x,y in metres'),
+        ('nan,0.1', 'x and y must be finite'),
+        ('0.4,inf', 'x and y must be finite'),
+    ],
+)
+def test_a_bad_row_is_refused_with_its_file_and_line(tmp_path, row, fault) -> None:
+    path = tmp_path / 'bad.csv'
+    path.write_text(f'x,y\n{GOOD}\n{row}\n')
+    message = refusal(path)
+    assert message.startswith(f'{path}:7: ')
+    assert fault in message
+
+
+def test_not_a_number_in_the_first_line_is_no_heading(tmp_path) -> None:
+    path = tmp_path / 'bad.csv'
+    path.write_text(f'nan,0.0\n{GOOD}')
+    assert refusal(path).startswith(f'{path}:1: x and y must be finite')
+
+
+@pytest.mark.parametrize(('content', 'found'), [('', 0), ('x,y\n', 0), ('0,0\n1,1\n1,1\n', 2)])
+def test_too_few_points_are_refused(tmp_path, content, found) -> None:
+    path = tmp_path / 'few.csv'
+    path.write_text(content)
+    assert f'at least 4 different points, found {found}' in refusal(path)
+
+
+def test_a_missing_file_a_folder_and_a_binary_file_are_refused(tmp_path) -> None:
+    assert 'No such file' in refusal(tmp_path / 'none.csv')
+    assert 'Is a directory' in refusal(tmp_path)
+    (tmp_path / 'image.csv').write_bytes(b'\x89PNG\xff\xfe')
+    assert 'not a text file' in refusal(tmp_path / 'image.csv')
