@@ -1,0 +1,92 @@
+"""Nodes as processes of their own, and one client in this process, on a domain of their own."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+import rclpy
+from push_node.spin import Spinner
+from rclpy.context import Context
+from rclpy.node import Node
+
+DOMAIN = 65
+PATIENCE = 20.0
+
+Process = subprocess.Popen[str]
+NodeMaker = Callable[..., Node]
+
+
+@pytest.fixture(scope='session')
+def environment() -> dict[str, str]:
+    return {
+        **os.environ,
+        'ROS_DOMAIN_ID': str(DOMAIN),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+    }
+
+
+@pytest.fixture
+def started(environment: dict[str, str]) -> Iterator[Callable[..., Process]]:
+    """Starts a program that holds a node, with ROS arguments."""
+    processes: list[Process] = []
+
+    def start(program: str, *arguments: str) -> Process:
+        process = subprocess.Popen(
+            [sys.executable, '-c', program, '--ros-args', *arguments],
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        processes.append(process)
+        return process
+
+    yield start
+    for process in processes:
+        if process.poll() is None:
+            process.send_signal(signal.SIGKILL)
+        process.communicate()
+
+
+@pytest.fixture(scope='session')
+def context() -> Iterator[Context]:
+    rclpy.init(domain_id=DOMAIN)
+    yield rclpy.get_default_context()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def made_node(context: Context) -> Iterator[NodeMaker]:
+    """Makes nodes in this process, with parameter overrides as a command line gives them."""
+    nodes: list[Node] = []
+
+    def make(
+        name: str = 'tested', *overrides: str, namespace: str = '', file: Path | None = None
+    ) -> Node:
+        arguments = [part for override in overrides for part in ('-p', override)]
+        arguments += ['--params-file', str(file)] if file else []
+        node = Node(name, cli_args=['--ros-args', *arguments], namespace=namespace)
+        nodes.append(node)
+        return node
+
+    yield make
+    for node in nodes:
+        node.destroy_node()
+
+
+@pytest.fixture
+def spun_until() -> Callable[[Node, Callable[[], bool]], None]:
+    """Spins a node until a condition holds."""
+
+    def spin(node: Node, finished: Callable[[], bool]) -> None:
+        spinner, end = Spinner(node), time.monotonic() + PATIENCE
+        while not finished():
+            assert time.monotonic() < end, 'it did not happen'
+            spinner.once()
+
+    return spin

@@ -1,0 +1,113 @@
+"""Each node is a real process; what it does is in the few lines of its program."""
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import sys
+from push_core.errors import InputError, PushError, RunError
+from push_node.spin import request_stop, run_node
+from rclpy.node import Node
+
+class Tested(Node):
+    def __init__(self):
+        super().__init__('tested')
+        {construction}
+        self.timer = self.create_timer(0.01, self.tick)
+        sys.stdout.write('ready\\n')
+        sys.stdout.flush()
+
+    def tick(self):
+        {tick}
+
+    def destroy_node(self):
+        sys.stdout.write('cleaned up\\n')
+        super().destroy_node()
+
+sys.exit(run_node(Tested))
+"""
+
+
+def cpu_seconds(pid: int) -> float:
+    fields = Path(f'/proc/{pid}/stat').read_text().rsplit(')', 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+
+@pytest.fixture
+def node(started):
+    def start(*arguments, construction='pass', tick='pass'):
+        return started(PROGRAM.format(construction=construction, tick=tick), *arguments)
+
+    return start
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_within_2_s_cleaned_up_with_status_0(node, number) -> None:
+    process = node()
+    assert process.stdout.readline() == 'ready\n'
+    begin = time.monotonic()
+    process.send_signal(number)
+    output, errors = process.communicate(timeout=10.0)
+    assert time.monotonic() - begin < 2.0
+    assert process.returncode == 0
+    assert output == 'cleaned up\n'
+    assert errors == ''
+
+
+def test_an_idle_node_leaves_the_core_alone(node) -> None:
+    process = node()
+    assert process.stdout.readline() == 'ready\n'
+    before = cpu_seconds(process.pid)
+    time.sleep(1.0)
+    assert cpu_seconds(process.pid) - before < 0.5
+
+
+@pytest.mark.parametrize(
+    ('error', 'status', 'line'),
+    [
+        ("InputError('no such model')", 2, 'Tested: no such model'),
+        ("RunError('no simulator')", 1, 'Tested: no simulator'),
+        ("FileNotFoundError(2, 'No such file', 'a.csv')", 1, 'Tested: a.csv: No such file'),
+        ("RuntimeError('no memory')", 2, 'Tested: cannot start: no memory'),
+    ],
+)
+def test_an_error_in_the_constructor_is_one_line_and_its_status(node, error, status, line) -> None:
+    process = node(construction=f'raise {error}')
+    _, errors = process.communicate(timeout=20.0)
+    assert process.returncode == status
+    assert errors == line + '\n'
+
+
+def test_an_error_in_a_callback_ends_it_cleaned_up_with_status_1(node) -> None:
+    process = node(tick="raise RunError('the tip is stuck')")
+    output, errors = process.communicate(timeout=20.0)
+    assert process.returncode == 1
+    assert output == 'ready\ncleaned up\n'
+    assert errors.splitlines()[-1] == 'Tested: the tip is stuck'
+    assert 'Traceback' not in errors  # rclpy adds a line of its log
+
+
+def test_a_mistake_in_a_callback_is_not_hidden(node) -> None:
+    process = node(tick='1 / 0')
+    output, errors = process.communicate(timeout=20.0)
+    assert process.returncode == 1
+    assert output == 'ready\ncleaned up\n'
+    assert errors.splitlines()[-1] == 'ZeroDivisionError: division by zero'
+
+
+def test_a_node_can_end_by_itself(node) -> None:
+    process = node(tick='request_stop()')
+    output, errors = process.communicate(timeout=20.0)
+    assert (process.returncode, output, errors) == (0, 'ready\ncleaned up\n', '')
+
+
+def test_bad_ros_arguments_are_an_error_of_status_2(node) -> None:
+    process = node('-p', 'nonsense')
+    _, errors = process.communicate(timeout=20.0)
+    assert process.returncode == 2
+    assert errors.splitlines()[-1].startswith('Tested: bad ROS arguments: ')
+    assert 'Traceback' not in errors
