@@ -81,6 +81,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         **_errors(tracking),
         **_times(run),
         'contact_losses': len(loss_intervals(contact(run, run.reference))),
+        'holds': holds(run),
         'limited': limited(run),
         'messages': messages(run),
     }
@@ -103,6 +104,12 @@ def limited(run: RunSeries) -> dict[str, int]:
     """Ticks in TRACKING in which each limit changed the command."""
     bits = run.state('limited')[run.state('mode') == ControllerState.TRACKING].astype(np.int64)
     return {name: int(np.count_nonzero(bits & bit)) for name, bit in LIMITS.items()}
+
+
+def holds(run: RunSeries) -> int:
+    """Times that the controller held still for want of a fresh pose."""
+    holding = run.state('mode') == ControllerState.HOLDING
+    return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
 
 
 def messages(run: RunSeries) -> dict[str, dict[str, int | None]]:

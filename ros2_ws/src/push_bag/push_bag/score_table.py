@@ -28,6 +28,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('tick', _figures(score['tick_ms'], 'ms')),
         ('pose to command', _figures(score['pose_to_command_ms'], 'ms')),
         ('deadline misses', str(score['deadline_misses'])),
+        ('holds', str(score['holds'])),
         ('contact losses', str(score['contact_losses'])),
         ('limited ticks', _counts(score['limited'])),
         (

@@ -18,6 +18,9 @@ from push_gp.model import ModelInfo
 NOMINAL_DISTANCE = 0.004
 """Travel of the measured pushes [m]: 0.2 s at 20 mm/s."""
 
+_GRAZING = 0.01
+"""Angle [rad] to the face below which a tip no longer pushes."""
+
 
 @dataclass(frozen=True)
 class AnalyticalModel:
@@ -44,7 +47,7 @@ class AnalyticalModel:
 
     @cached_property
     def info(self) -> ModelInfo:
-        """See `PushModel.info`; it knows the whole face and every direction into it."""
+        """See `PushModel.info`; it knows the whole face and all directions into it."""
         half = self.slider.side / 2.0
         return ModelInfo(
             model_hash=self._hash(),
@@ -54,7 +57,7 @@ class AnalyticalModel:
             training_set_hash='',
             distance=self.distance,
             p_y_domain=(-half, half),
-            beta_domain=(0.0, math.pi),
+            beta_domain=(_GRAZING, math.pi - _GRAZING),
             lengthscales=np.zeros((3, 2)),
             signal_std=np.zeros(3),
             noise_std=np.zeros(3),

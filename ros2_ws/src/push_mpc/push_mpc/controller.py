@@ -18,6 +18,7 @@ from push_mpc.surrogate import Table
 from push_mpc.tracking_qp import TrackingQP
 
 _STILL = np.zeros(2)
+_FARTHEST = 1e3  # [m], [rad]; a pose beyond it is a fault of whoever measured it
 
 
 class Mode(IntEnum):
@@ -28,6 +29,7 @@ class Mode(IntEnum):
     TRACKING = 2
     DONE = 3
     STOPPED = 4
+    HOLDING = 5
 
 
 @dataclass(frozen=True)
@@ -110,6 +112,12 @@ class Controller:
         self.mode = Mode.STOPPED
         self.stop_reason = reason
 
+    def hold(self, now: float) -> Tick:
+        """Zero velocity at a time [s] for want of a fresh pose; the next one goes on."""
+        self._sent = _STILL
+        self._predictor.sent(_STILL, now)
+        return Tick(Mode.HOLDING, _STILL, input=_STILL)
+
     def resume(self) -> None:
         """Releases a stop."""
         if self.mode == Mode.STOPPED:
@@ -128,15 +136,16 @@ class Controller:
         Returns:
             What to send and what there is to say about it.
         """
-        if not (np.isfinite(object_pose).all() and np.isfinite(tip).all()):
-            self.stop('a pose is not finite')
+        if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
+            self.stop('a pose is not finite, or beyond all bounds')
         if self.mode == Mode.ARMED:
             self._count_poses(now)
         tick = self._follow(object_pose, tip, exposure, now)
         if self.mode != Mode.TRACKING:
             tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
         self._sent = tick.velocity
-        self._predictor.sent(tick.velocity, now)
+        if self.mode in (Mode.ARMED, Mode.TRACKING):
+            self._predictor.sent(tick.velocity, now)
         return tick
 
     def _count_poses(self, now: float) -> None:

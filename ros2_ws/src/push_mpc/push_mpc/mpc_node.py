@@ -40,7 +40,6 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         lockstep = self._settings.mode == 'lockstep'
         self._poses = PosePair(self, lockstep, self._tick, self._repeat)
-        self._answered = 0
         self._tick_count = 0
         self._scheduling = ''
         self._command, self._state = TwistStamped(), ControllerState()
@@ -93,7 +92,6 @@ class MpcNode(Node):  # type: ignore[misc]
         conversions.set_stamp(self._command, stamp)
         conversions.fill_command(self._command, tick.velocity)
         self._commands.publish(self._command)
-        self._answered = stamp
 
     def _repeat(self) -> None:
         """The simulator asks again: the answer to its last question got lost."""
@@ -116,18 +114,26 @@ class MpcNode(Node):  # type: ignore[misc]
             self._controller.use(ready)
 
     def _watch(self) -> None:
-        """Stops on old poses; the poses themselves drive everything else."""
-        if self._controller.mode in _MOVING and self._poses.age > self._settings.pose_timeout:
-            self._halt(f'no pose for {1e3 * self._poses.age:.0f} ms')
+        """Holds still on old poses; the poses themselves drive everything else."""
+        age = self._poses.age
+        if self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
+            return
+        if age > self._settings.pose_loss:
+            self._halt(f'no pose for {1e3 * age:.0f} ms')
+        else:
+            stamp, now = self._poses.now()
+            self._publish(self._controller.hold(now), stamp)
 
     def _halt(self, reason: str) -> None:
         """Stops at once, without waiting for a pose to answer."""
         self._controller.stop(reason)
-        stamp = self._answered
-        halted = Tick(Mode.STOPPED, np.zeros(2))
-        self._send(halted, stamp)
-        self._tell(halted, stamp, 0.0)
+        self._publish(Tick(Mode.STOPPED, np.zeros(2)), self._poses.now()[0])
         self.get_logger().error(f'stopped: {reason}')
+
+    def _publish(self, tick: Tick, stamp: int) -> None:
+        """Sends and tells of a tick that answers no pose."""
+        self._send(tick, stamp)
+        self._tell(tick, stamp, 0.0)
 
     def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         self._take_model()

@@ -28,7 +28,10 @@ class MpcSettings(ControllerSettings):
         'realtime', 'what the clock is: the wall or /clock', choices=('realtime', 'lockstep')
     )
     pose_timeout: float = setting(
-        0.03, 'age of the newest pose at which it stops', unit='s', low=0.011, high=1.0
+        0.03, 'age of the newest pose from which it holds still', unit='s', low=0.011, high=1.0
+    )
+    pose_loss: float = setting(
+        0.2, 'age of the newest pose at which it stops for good', unit='s', low=0.011, high=10.0
     )
     require_recorder: bool = setting(True, 'start only while the recorder records')
     slider: Slider = nested(Slider())

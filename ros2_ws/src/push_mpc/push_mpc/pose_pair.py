@@ -62,6 +62,11 @@ class PosePair:
         """Time [s] since the last pair came, or since a restart."""
         return time.monotonic() - self._arrival
 
+    def now(self) -> tuple[int, float]:
+        """The present, as a stamp [ns] and in the seconds that the callback is given."""
+        now = self._clock if self._lockstep else int(self._node_clock.now().nanoseconds)
+        return now, to_seconds(now - self._origin)
+
     def _on_object(self, message: PoseStamped) -> None:
         self.object_pose = message
         self._object_stamp = to_nanoseconds(message.header.stamp)
@@ -89,5 +94,4 @@ class PosePair:
         self._origin = stamp if self._origin < 0 else self._origin
         self._arrival = time.monotonic()
         self.seen = True
-        now = self._clock if self._lockstep else self._node_clock.now().nanoseconds
-        self._on_pair(stamp, to_seconds(stamp - self._origin), to_seconds(now - self._origin))
+        self._on_pair(stamp, to_seconds(stamp - self._origin), self.now()[1])
