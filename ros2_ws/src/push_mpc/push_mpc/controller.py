@@ -114,8 +114,7 @@ class Controller:
 
     def hold(self, now: float) -> Tick:
         """Zero velocity at a time [s] for want of a fresh pose; the next one goes on."""
-        self._sent = _STILL
-        self._predictor.sent(_STILL, now)
+        self._remember(_STILL, now)
         return Tick(Mode.HOLDING, _STILL, input=_STILL)
 
     def resume(self) -> None:
@@ -138,15 +137,20 @@ class Controller:
         """
         if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
             self.stop('a pose is not finite, or beyond all bounds')
+            return Tick(self.mode, _STILL, input=_STILL)
         if self.mode == Mode.ARMED:
             self._count_poses(now)
         tick = self._follow(object_pose, tip, exposure, now)
         if self.mode != Mode.TRACKING:
             tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
-        self._sent = tick.velocity
-        if self.mode in (Mode.ARMED, Mode.TRACKING):
-            self._predictor.sent(tick.velocity, now)
+        self._remember(tick.velocity, now)
         return tick
+
+    def _remember(self, velocity: Array, now: float) -> None:
+        """Keeps a command in mind; before and after tracking they are all zero."""
+        self._sent = velocity
+        if self.mode == Mode.TRACKING:
+            self._predictor.sent(velocity, now)
 
     def _count_poses(self, now: float) -> None:
         self._seen += 1

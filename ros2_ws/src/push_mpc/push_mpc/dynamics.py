@@ -58,11 +58,12 @@ def discretised(
     Products of the first-order transitions of the samples in between; the last sample is held.
 
     Returns:
-        A (n, 4, 4) and B (n, 4, 2) with x_{i+1} = A x_i + B u_i for a constant input.
+        A (n, 4, 4) and B (n, 4, m), as wide as `by_inputs`, with x_{i+1} = A x_i + B u_i for a
+        constant input.
     """
     count = len(by_state)
     transition = np.tile(np.eye(4), (count, 1, 1))
-    effect = np.zeros((count, 4, 2))
+    effect = np.zeros_like(by_inputs)
     for offset in range(stride):
         index = np.minimum(np.arange(count) + offset, count - 1)
         step = np.eye(4) + period * by_state[index]

@@ -33,11 +33,13 @@ class Preview:
     def of(cls, plan: Plan, model: TravelModel, tip_x: float, stride: int) -> 'Preview':
         """Linearises a model about a plan."""
         by_state, by_input = linearised(model, plan.state, plan.input, tip_x)
-        transition, effect = discretised(by_state, by_input, stride, plan.period)
+        # what the plan misses acts like one more input that is always 1
+        inputs = np.concatenate([by_input, _missed(plan, model, tip_x)[:, :, None]], axis=-1)
+        transition, effect = discretised(by_state, inputs, stride, plan.period)
         index = np.arange(len(plan.state))
         ahead = np.minimum(index + stride, len(index) - 1)
-        drift = _drift(plan, model, tip_x, stride)
-        return cls(stride, transition, effect, drift, plan.input, plan.state[ahead, 3])
+        contact = plan.state[ahead, 3]
+        return cls(stride, transition, effect[:, :, :2], effect[:, :, 2], plan.input, contact)
 
     def window(self, sample: int, steps: int) -> Array:
         """Indices (steps,) of the horizon that starts at a sample; held at the plan's end."""
@@ -45,11 +47,7 @@ class Preview:
         return np.minimum(sample + self.stride * np.arange(steps), last)
 
 
-def _drift(plan: Plan, model: TravelModel, tip_x: float, stride: int) -> Array:
-    """Sum over a step of how far the model's motion at the nominal leaves the plan, (n, 4)."""
+def _missed(plan: Plan, model: TravelModel, tip_x: float) -> Array:
+    """How fast the model's motion at the nominal leaves the plan, (n, 4)."""
     motion = rates(model, plan.state, plan.input, tip_x)
-    planned = np.gradient(plan.state, plan.period, axis=0)
-    missed = plan.period * (motion - planned)
-    total = np.concatenate([np.zeros((1, 4)), np.cumsum(missed, axis=0)])
-    ahead = np.minimum(np.arange(len(missed)) + stride, len(missed))
-    return np.asarray(total[ahead] - total[: len(missed)])
+    return np.asarray(motion - np.gradient(plan.state, plan.period, axis=0))

@@ -1,0 +1,122 @@
+"""The square, its plan and table, and a plant with the controller that pushes in it."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from push_core.frames import Array
+from push_core.motion_cone import MotionCone
+from push_core.slider import Slider
+from push_core.tracks import by_name
+from push_mpc.controller import Controller, Mode, Tick
+from push_mpc.node_settings import MpcSettings, mpc_settings
+from push_mpc.nominal import Plan, flat_plan
+from push_mpc.planning import planned
+from push_mpc.surrogate import Grid, Table
+from push_sim.perturbation import Kind, Perturbation
+from push_sim.plant import Plant
+from push_sim.settings import profile
+
+Differences = Callable[[Callable[[Array], Array], Array, float], Array]
+
+
+class SmoothModel:
+    """Displacement rates with closed derivatives that bend in both inputs."""
+
+    def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
+        a, b = 30.0 * np.asarray(p_y), np.asarray(beta)
+        mean = np.stack([np.sin(b) * np.cos(a), np.cos(b + a), np.sin(2.0 * b) * a], axis=-1)
+        by_a = np.stack([-np.sin(b) * np.sin(a), -np.sin(b + a), np.sin(2.0 * b)], axis=-1)
+        by_b = np.stack(
+            [np.cos(b) * np.cos(a), -np.sin(b + a), 2.0 * np.cos(2.0 * b) * a], axis=-1
+        )
+        return mean, np.stack([30.0 * by_a, by_b], axis=-1)
+
+
+class Cell:
+    """Plant and controller in one loop, without DDS."""
+
+    def __init__(self, settings: MpcSettings, table: Table) -> None:
+        self.plant = Plant(profile('irb120'), settings.slider)
+        self.controller = Controller(settings, settings.slider, planned(settings))
+        self.controller.use(self.controller.prepared(table, 'table'))
+        start = self.controller.plan.state[0]
+        tip = settings.slider.tip_position(start[:3], start[3])
+        self.seen = self.plant.reset(start[:3], tip, seed=1)
+
+    def tick(self, object_pose: Array | None = None) -> Tick:
+        """One period, with the measured pose or another one."""
+        pose = self.seen.object_pose if object_pose is None else object_pose
+        exposure, now = self.seen.time - Plant.START, self.plant.time - Plant.START
+        tick = self.controller.step(pose, self.seen.tip_position, exposure, now)
+        self.plant.command(tick.velocity, self.plant.time)
+        self.seen = self.plant.step()
+        return tick
+
+    def disturb(self, kind: Kind, magnitude: float) -> None:
+        self.plant.perturb(Perturbation(kind, magnitude))
+
+
+@pytest.fixture(scope='session')
+def slider() -> Slider:
+    return Slider()
+
+
+@pytest.fixture(scope='session')
+def model() -> SmoothModel:
+    return SmoothModel()
+
+
+@pytest.fixture(scope='session')
+def eight(slider: Slider) -> Plan:
+    return flat_plan(by_name('eight'), 0.08, slider, laps=1, period=0.01, overrun=1.0)
+
+
+@pytest.fixture(scope='session')
+def tabulated() -> Callable[..., Table]:
+    """Makes the table of a model."""
+
+    def tabulate(model: object, p_y_points: int = 37, beta_points: int = 61) -> Table:
+        grid = Grid(
+            np.linspace(-0.045, 0.045, p_y_points), np.linspace(0.15, np.pi - 0.15, beta_points)
+        )
+        return Table(grid, *model.evaluate(*grid.points()))
+
+    return tabulate
+
+
+@pytest.fixture(scope='session')
+def table(tabulated: Callable[..., Table]) -> Table:
+    """The motion cone with the friction that the simulator has."""
+    return tabulated(MotionCone(Slider(friction_pusher=0.23)))
+
+
+@pytest.fixture
+def cell(table: Table) -> Iterator[Cell]:
+    """An armed cell on the 8-track."""
+    made = Cell(replace(mpc_settings('irb120'), good_poses=3), table)
+    made.controller.arm()
+    yield made
+    made.plant.close()
+
+
+@pytest.fixture
+def tracking(cell: Cell) -> Cell:
+    """A cell that has been tracking for half a second."""
+    for _ in range(54):
+        cell.tick()
+    assert cell.controller.mode == Mode.TRACKING
+    return cell
+
+
+@pytest.fixture(scope='session')
+def central_differences() -> Differences:
+    """Derivative of a vector function by each of its arguments, along a new last axis."""
+
+    def derivative(function: Callable[[Array], Array], point: Array, step: float) -> Array:
+        steps = step * np.eye(len(point))
+        changes = [function(point + one) - function(point - one) for one in steps]
+        return np.stack(changes, axis=-1) / (2.0 * step)
+
+    return derivative

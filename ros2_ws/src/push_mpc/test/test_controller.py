@@ -1,0 +1,181 @@
+"""The controller with the real plant, in process."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from push_mpc.controller import Controller, Mode, horizon_stride
+from push_mpc.node_settings import mpc_settings
+from push_mpc.planning import planned
+
+SETTINGS = mpc_settings('irb120')
+MODES = {Mode.TRACKING, Mode.DONE, Mode.STOPPED}
+
+
+def is_still(tick) -> bool:
+    return not np.any(tick.velocity)
+
+
+def test_nothing_moves_before_enough_good_poses(cell) -> None:
+    ticks = [cell.tick() for _ in range(4)]
+    assert [tick.mode for tick in ticks] == [Mode.ARMED] * 3 + [Mode.TRACKING]
+    assert all(is_still(tick) for tick in ticks[:3])
+    assert not is_still(ticks[3])
+
+
+def test_the_reference_starts_when_the_object_can(cell) -> None:
+    first = [cell.tick() for _ in range(4)][-1]
+    assert first.reference_time == pytest.approx(-(0.11 + 0.005), abs=1e-9)
+    assert first.reference == pytest.approx(cell.controller.plan.state[0], abs=1e-12)
+
+
+def test_it_follows_the_plan_with_the_lag_of_the_robot(tracking) -> None:
+    errors = []
+    for _ in range(300):
+        tick = tracking.tick()
+        reference, _ = tracking.controller.plan.at(tick.reference_time)
+        errors.append(math.hypot(*(tick.state[:2] - reference[:2])))
+    assert np.mean(errors) < 5e-3
+    assert tick.mode == Mode.TRACKING
+
+
+def test_the_prediction_comes_true(tracking) -> None:
+    told = [tracking.tick() for _ in range(60)]
+    predicted, later = told[0].predicted, told[12].state
+    assert np.hypot(*(later[:2] - predicted[:2])) < 1.5e-3
+    assert np.hypot(*(later[:2] - told[0].state[:2])) > 7e-3
+
+
+@pytest.mark.parametrize('bad', [math.nan, math.inf, 1e300])
+@pytest.mark.parametrize('entry', [0, 1, 2])
+def test_a_bad_pose_stops_at_once_and_for_good(tracking, bad, entry) -> None:
+    pose = tracking.seen.object_pose.copy()
+    pose[entry] = bad
+    stopped = tracking.tick(pose)
+    assert (stopped.mode, is_still(stopped)) == (Mode.STOPPED, True)
+    assert 'pose' in tracking.controller.stop_reason
+    after = [tracking.tick() for _ in range(40)]
+    assert all(tick.mode == Mode.STOPPED and is_still(tick) for tick in after)
+    assert np.hypot(*tracking.plant.tip_velocity) < 1e-3
+
+
+def test_a_stop_is_released_by_resume_and_begins_anew(tracking) -> None:
+    tracking.controller.stop('on request')
+    tracking.controller.resume()
+    assert (tracking.controller.mode, tracking.controller.stop_reason) == (Mode.IDLE, '')
+    assert is_still(tracking.tick())
+    tracking.controller.arm()
+    assert [tracking.tick().mode for _ in range(4)] == [Mode.ARMED] * 3 + [Mode.TRACKING]
+
+
+def test_resume_does_nothing_to_a_controller_that_is_not_stopped(tracking) -> None:
+    tracking.controller.resume()
+    assert tracking.controller.mode == Mode.TRACKING
+
+
+def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
+    controller = tracking.controller
+    late = controller.plan.duration + 10.0
+    tick = controller.step(tracking.seen.object_pose, tracking.seen.tip_position, late, late)
+    assert (tick.mode, is_still(tick)) == (Mode.DONE, True)
+
+
+def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
+    class Failed:
+        usable, status, iterations, inputs = False, 3, 7, np.full((35, 2), np.nan)
+
+    monkeypatch.setattr(tracking.controller._qp, 'solve', Failed)
+    tick = tracking.tick()
+    assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)
+    assert tracking.controller.stop_reason == 'the solver found no input (status 3)'
+
+
+def test_every_command_keeps_the_limits(tracking) -> None:
+    before = tracking.tick().velocity
+    for _ in range(50):
+        velocity = tracking.tick().velocity
+        limits = SETTINGS.limits
+        assert np.hypot(*velocity) <= limits.speed
+        assert np.hypot(*(velocity - before)) <= limits.acceleration * 0.01 * (1 + 1e-9)
+        before = velocity
+
+
+def test_without_compensation_it_plans_from_what_it_sees(tracking, table) -> None:
+    without = replace(SETTINGS, delay_compensation=False, good_poses=1)
+    controller = Controller(without, without.slider, tracking.controller.plan)
+    controller.use(controller.prepared(table, 'table'))
+    controller.arm()
+    seen = tracking.seen
+    for exposure in (0.0, 0.01, 0.02):
+        tick = controller.step(seen.object_pose, seen.tip_position, exposure, exposure + 0.005)
+    assert np.array_equal(tick.predicted, tick.state)
+
+
+def test_holding_for_want_of_a_pose_is_still_and_foreseen(tracking) -> None:
+    now = tracking.plant.time - tracking.plant.START
+    held = [tracking.controller.hold(now + 0.01 * count) for count in range(15)]
+    assert {tick.mode for tick in held} == {Mode.HOLDING}
+    assert all(is_still(tick) for tick in held)
+    later = now + 0.15
+    seen = tracking.seen
+    tick = tracking.controller.step(seen.object_pose, seen.tip_position, later, later + 0.005)
+    assert tick.mode == Mode.TRACKING
+    assert np.hypot(*(tick.predicted[:2] - tick.state[:2])) < 2e-3
+
+
+def test_holding_before_the_first_pose_does_not_confuse_the_prediction(cell) -> None:
+    # time has no origin yet: the present is a date
+    cell.controller.hold(1.7e9)
+    ticks = [cell.tick() for _ in range(30)]
+    moved = ticks[-1].predicted[:2] - ticks[-1].state[:2]
+    assert np.hypot(*moved) > 4e-3
+
+
+def test_waiting_does_not_pile_up_commands(tracking) -> None:
+    tracking.controller.stop('on request')
+    for _ in range(50):
+        tracking.tick()
+    assert len(tracking.controller._predictor._now._queue) < 20
+
+
+@pytest.mark.parametrize(('speed', 'stride'), [(0.08, 3), (0.05, 5), (0.02, 12), (0.25, 1)])
+def test_the_horizon_is_a_length_of_path_at_any_speed(speed, stride) -> None:
+    slow = replace(SETTINGS, speed=speed)
+    assert horizon_stride(planned(slow), slow) == stride
+
+
+POSES = st.tuples(
+    st.one_of(st.floats(-0.5, 0.5), st.floats()),
+    st.one_of(st.floats(-0.5, 0.5), st.floats()),
+    st.one_of(st.floats(-7.0, 7.0), st.floats()),
+).map(np.array)
+TIPS = st.tuples(
+    st.one_of(st.floats(-0.5, 0.5), st.floats()), st.one_of(st.floats(-0.5, 0.5), st.floats())
+).map(np.array)
+
+
+@settings(
+    max_examples=40,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+@given(st.lists(st.tuples(POSES, TIPS), min_size=1, max_size=2))
+def test_whatever_is_seen_a_tick_ends_in_a_finite_command_or_a_stated_stop(
+    cell, sightings
+) -> None:
+    controller = cell.controller
+    controller.arm()
+    for count in range(5):
+        controller.step(cell.seen.object_pose, cell.seen.tip_position, 0.01 * count, 0.01 * count)
+    for count, (pose, tip) in enumerate(sightings):
+        now = 0.06 + 0.01 * count
+        tick = controller.step(pose, tip, now - 0.005, now)
+        assert tick.mode in MODES
+        assert np.isfinite(tick.velocity).all()
+        assert np.hypot(*tick.velocity) <= SETTINGS.limits.speed * (1 + 1e-12)
+        if tick.mode == Mode.STOPPED:
+            assert is_still(tick)
+            assert controller.stop_reason
