@@ -1,0 +1,237 @@
+"""The node as a process of its own, over real DDS; this process is plant, recorder and model."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.motion_cone import MotionCone
+from push_core.slider import Slider
+from push_msgs.msg import ControllerState, ModelInfo, NominalTrajectory
+from push_msgs.srv import Predict
+from push_node import qos
+from push_node.spin import Spinner
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+DOMAIN = 65
+PATIENCE = 20.0
+LINE = 'track:=line'
+
+
+class Cell:
+    """Everything around the controller, standing still at the start of the line."""
+
+    def __init__(self) -> None:
+        self.node = Node('cell')
+        self.spinner = Spinner(self.node)
+        self.poses_on = self.recording = False
+        self.states: list[ControllerState] = []
+        self.commands: list[TwistStamped] = []
+        self.plans: list[NominalTrajectory] = []
+        node, slider = self.node, Slider()
+        self._tip = slider.tip_position(np.zeros(3), 0.0)
+        self._cone = MotionCone(slider)
+        self._object = node.create_publisher(PoseStamped, 'object_pose', qos.POSE)
+        self._pusher = node.create_publisher(PoseStamped, 'pusher_pose', qos.POSE)
+        self._models = node.create_publisher(ModelInfo, 'model_info', qos.LATCHED)
+        self._health = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        node.create_subscription(
+            ControllerState, 'controller_state', self.states.append, qos.STATE
+        )
+        node.create_subscription(
+            TwistStamped, 'pusher_velocity_cmd', self.commands.append, qos.COMMAND
+        )
+        node.create_subscription(
+            NominalTrajectory, 'nominal_trajectory', self.plans.append, qos.LATCHED
+        )
+        node.create_service(Predict, 'push_gp/predict', self._predict)
+        self._calls = {
+            name: node.create_client(Trigger, f'push_mpc/{name}')
+            for name in ('start', 'stop', 'resume')
+        }
+        node.create_timer(0.01, self._expose)
+        node.create_timer(0.2, self._report)
+
+    def _predict(self, request: Predict.Request, answer: Predict.Response) -> Predict.Response:
+        mean, jacobian = self._cone.evaluate(np.array(request.p_y), np.array(request.beta))
+        answer.success, answer.model_id = True, 'cone'
+        answer.mean = (0.004 * mean).ravel().tolist()
+        answer.jacobian = (0.004 * jacobian).ravel().tolist()
+        return answer
+
+    def _expose(self) -> None:
+        if not self.poses_on:
+            return
+        stamp = self.node.get_clock().now().to_msg()
+        for publisher, place in ((self._object, (0.0, 0.0)), (self._pusher, self._tip)):
+            message = PoseStamped()
+            message.header.stamp = stamp
+            message.pose.position.x, message.pose.position.y = map(float, place)
+            publisher.publish(message)
+
+    def _report(self) -> None:
+        if self.recording:
+            status = DiagnosticStatus(level=DiagnosticStatus.OK, name='/recorder: recording')
+            self._health.publish(DiagnosticArray(status=[status]))
+
+    def announce_model(self) -> None:
+        info = ModelInfo(model_id='cone', distance=0.004)
+        info.p_y_domain, info.beta_domain = (-0.045, 0.045), (0.1, 3.0)
+        self._models.publish(info)
+
+    def wait(self, finished: Callable[[], bool]) -> None:
+        end = time.monotonic() + PATIENCE
+        while not finished():
+            assert time.monotonic() < end, 'it did not happen'
+            self.spinner.once()
+
+    def call(self, name: str) -> Trigger.Response:
+        client = self._calls[name]
+        self.wait(client.service_is_ready)
+        future = client.call_async(Trigger.Request())
+        self.wait(future.done)
+        return future.result()
+
+    def call_until(self, name: str, accepted: Callable[[Trigger.Response], bool]) -> None:
+        self.wait(lambda: accepted(self.call(name)))
+
+    def mode(self) -> int:
+        return self.states[-1].mode if self.states else ControllerState.IDLE
+
+    def begin(self) -> None:
+        """Everything in place, started, and tracking."""
+        self.poses_on = self.recording = True
+        self.announce_model()
+        self.call_until('start', lambda answer: answer.success)
+        self.wait(lambda: self.mode() == ControllerState.TRACKING)
+
+
+@pytest.fixture
+def cell() -> Iterator[Cell]:
+    rclpy.init(domain_id=DOMAIN)
+    yield Cell()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def started() -> Iterator[Callable[..., 'subprocess.Popen[str]']]:
+    processes = []
+
+    def start(*parameters: str) -> 'subprocess.Popen[str]':
+        options = [option for parameter in parameters for option in ('-p', parameter)]
+        process = subprocess.Popen(
+            [sys.executable, '-m', 'push_mpc.mpc_node', '--ros-args', *options],
+            env={**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        processes.append(process)
+        return process
+
+    yield start
+    for process in processes:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def is_zero(command: TwistStamped) -> bool:
+    return command.twist.linear.x == 0.0 == command.twist.linear.y
+
+
+def test_it_starts_only_when_all_is_there_and_says_what_is_not(cell, started) -> None:
+    started(LINE)
+    assert cell.call('start').message == 'waiting for the model: no model announced'
+    cell.announce_model()
+    cell.poses_on = True
+    cell.call_until('start', lambda answer: 'recorder' in answer.message)
+    cell.poses_on, cell.recording = False, True
+    cell.states.clear()
+    cell.poses_on = True
+    cell.call_until('start', lambda answer: answer.success)
+    assert cell.call('start').message == 'already started'
+    cell.wait(lambda: cell.mode() == ControllerState.TRACKING)
+    assert cell.states[-1].model_id == 'cone'
+
+
+def test_it_does_not_start_without_poses(cell, started) -> None:
+    started(LINE, 'require_recorder:=false')
+    cell.announce_model()
+    cell.call_until('start', lambda answer: 'model' not in answer.message)
+    answer = cell.call('start')
+    assert (answer.success, answer.message) == (False, 'waiting for poses')
+
+
+def test_it_is_silent_while_idle_and_announces_its_plan(cell, started) -> None:
+    started(LINE)
+    cell.poses_on = True
+    cell.wait(lambda: len(cell.states) > 10)
+    assert cell.commands == []
+    cell.wait(lambda: bool(cell.plans))
+    plan = cell.plans[0]
+    assert (plan.track, plan.x[-1]) == ('line', pytest.approx(0.5))
+
+
+def test_it_answers_each_pose_and_is_still_until_it_has_seen_ten(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.wait(lambda: len(cell.commands) > 20 and not is_zero(cell.commands[-1]))
+    armed = [state for state in cell.states if state.mode == ControllerState.ARMED]
+    assert len(armed) == 10
+    assert all(is_zero(command) for command in cell.commands[:10])
+
+
+def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.poses_on = False
+    cell.wait(lambda: cell.mode() in (ControllerState.HOLDING, ControllerState.STOPPED))
+    assert is_zero(cell.commands[-1])
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert cell.states[-1].stop_reason.startswith('no pose for ')
+    cell.poses_on = True
+    cell.commands.clear()
+    cell.wait(lambda: len(cell.commands) > 10)
+    assert all(is_zero(command) for command in cell.commands)
+    assert 'call push_mpc/resume first' in cell.call('start').message
+    assert cell.call('resume').success
+    cell.call_until('start', lambda answer: answer.success)
+
+
+def test_stop_stops_at_once(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    assert cell.call('stop').success
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert cell.states[-1].stop_reason == 'stopped on request'
+    assert is_zero(cell.commands[-1])
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_within_2_s_with_the_tip_at_rest(cell, started, number) -> None:
+    process = started(LINE)
+    cell.begin()
+    cell.wait(lambda: not is_zero(cell.commands[-1]))
+    begin = time.monotonic()
+    process.send_signal(number)
+    assert process.wait(timeout=10.0) == 0
+    assert time.monotonic() - begin < 2.0
+    cell.wait(lambda: is_zero(cell.commands[-1]))
+    assert 'Traceback' not in process.stderr.read()
+
+
+@pytest.mark.parametrize('parameter', ['track:=nine', 'speed:=0.3', 'horizn_steps:=3'])
+def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it(started, parameter) -> None:
+    process = started(parameter)
+    assert process.wait(timeout=PATIENCE) == 2
+    lines = process.stderr.read().splitlines()
+    assert len(lines) == 1
+    assert parameter.split(':=')[0] in lines[0]

@@ -1,0 +1,60 @@
+"""A whole lap in one process: the same plant and controller, without DDS."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from push_bag.recorder_settings import RecorderSettings
+from push_bringup.cell_parameters import CellParameters
+from push_bringup.in_process import InProcessCell
+from push_gp.gp_model import GpModel
+from push_gp.learn import learned
+from push_gp.server_settings import ServerSettings
+from push_mpc.controller import Mode, Tick
+from push_mpc.node_settings import mpc_settings
+from push_sim.collect import collect
+from push_sim.node_settings import node_settings
+from push_sim.plant import Observation
+
+Lap = Callable[..., tuple[bool, float]]
+
+
+@pytest.fixture(scope='module')
+def model() -> GpModel:
+    """What 200 pushes in the simulator teach."""
+    return learned(collect(200, 0))
+
+
+@pytest.fixture
+def lap(model: GpModel) -> Lap:
+    """Pushes one lap of the 8-track at 80 mm/s; whether it got round, and the mean error [m]."""
+
+    def run(**changes: object) -> tuple[bool, float]:
+        mpc = replace(mpc_settings('irb120'), mode='lockstep', **changes)
+        sim = node_settings('irb120')
+        cell = InProcessCell(CellParameters(sim, ServerSettings(), mpc, RecorderSettings()), model)
+        errors: list[float] = []
+
+        def on_tick(seen: Observation, tick: Tick, _milliseconds: float) -> None:
+            if tick.reference_time >= 0.0:
+                reference, _ = cell.controller.plan.at(tick.reference_time)
+                errors.append(float(np.hypot(*(seen.object_pose[:2] - reference[:2]))))
+
+        cell.run(on_tick)
+        cell.close()
+        return cell.controller.mode == Mode.DONE, float(np.mean(errors))
+
+    return run
+
+
+def test_a_learned_model_gets_round_within_4_mm(lap: Lap) -> None:
+    done, error = lap()
+    assert done
+    assert error < 4.0e-3
+
+
+def test_without_delay_compensation_it_fails_or_errs_at_least_twice_as_much(lap: Lap) -> None:
+    _, with_compensation = lap()
+    done, without = lap(delay_compensation=False)
+    assert not done or without >= 2.0 * with_compensation
