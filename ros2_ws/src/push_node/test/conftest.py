@@ -53,7 +53,7 @@ def started(environment: dict[str, str]) -> Iterator[Callable[..., Process]]:
         process.communicate()
 
 
-@pytest.fixture(scope='session')
+@pytest.fixture(scope='module')
 def context() -> Iterator[Context]:
     rclpy.init(domain_id=DOMAIN)
     yield rclpy.get_default_context()
