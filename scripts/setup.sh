@@ -77,6 +77,7 @@ install_packages() {
     step 'Python packages'
   fi
   install_locks packages run dev
+  compile_packages
 }
 
 # start_builder: colcon in a process group of its own, ended with the set-up.

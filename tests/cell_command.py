@@ -6,6 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+from push_bag.run_reader import read_run
+from push_core.errors import InputError
+
 CELL = ('ros2', 'run', 'push_bringup', 'cell')
 
 
@@ -36,10 +40,21 @@ class Ended:
         return Path(self.out.splitlines()[-1])
 
 
+def is_pushing(runs: Path) -> bool:
+    """Whether the one run in a folder has moved the tip at 30 mm/s, as far as recorded."""
+    try:
+        (bag,) = runs.glob('*/*.mcap')
+        tip = read_run(bag).pusher
+    except (InputError, ValueError):
+        return False
+    speed = np.hypot(*np.diff(tip.values, axis=0).T) / (np.diff(tip.stamp) * 1e-9)
+    return bool(np.any(speed > 0.03))
+
+
 def wait_until(condition: Callable[[], bool], cell: 'subprocess.Popen[str]') -> None:
     """Waits for a condition while the cell lives."""
     deadline = time.monotonic() + 60.0
     while not condition():
         assert cell.poll() is None, cell.communicate()
         assert time.monotonic() < deadline
-        time.sleep(0.05)
+        time.sleep(0.2)

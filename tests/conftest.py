@@ -3,12 +3,11 @@
 import os
 import signal
 import subprocess
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from cell_command import CELL, Ended, wait_until
+from cell_command import CELL, Ended, is_pushing, wait_until
 
 # a domain of our own, so that no cell of the machine's user is in the way
 DOMAIN = str(40 + os.getpid() % 40)
@@ -42,9 +41,7 @@ def pushing_cell(environment: dict[str, str], tmp_path: Path) -> Iterator['subpr
         stderr=subprocess.PIPE,
         text=True,
     )
-    wait_until(lambda: any(runs.glob('*/*.mcap')), cell)
-    time.sleep(3.0)
-    assert cell.poll() is None
+    wait_until(lambda: is_pushing(runs), cell)
     yield cell
     if cell.poll() is None:
         cell.send_signal(signal.SIGKILL)

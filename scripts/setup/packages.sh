@@ -62,6 +62,20 @@ install_locks() {
   stamp "$name"
 }
 
+# compile_packages: what the nodes import at every start; pip would compile everything, one by one.
+compile_packages() {
+  local site name
+  local -a folders=()
+  site=$("$root/.venv/bin/python" -I -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+  for name in numpy scipy osqp jinja2 joblib yaml mcap zstandard tqdm narwhals _plotly_utils plotly \
+    rclpy rpyutils ament_index_python builtin_interfaces rcl_interfaces std_msgs std_srvs \
+    geometry_msgs diagnostic_msgs visualization_msgs rosgraph_msgs; do
+    [ ! -d "$site/$name" ] || folders+=("$site/$name")
+  done
+  "$root/.venv/bin/python" -I -m compileall -q -j "$(nproc)" -x '/tests?/|plotly/validators' \
+    "${folders[@]}" > "$logs/compile.log" 2>&1 || true
+}
+
 # relocate_ros: makes the wheels a prefix that CMake, colcon and the loader understand.
 relocate_ros() {
   local shell

@@ -5,7 +5,7 @@
 # shell before and after `source env.sh`.
 forget_own_prefixes() {
   local name
-  for name in AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH PYTHONPATH LD_LIBRARY_PATH; do
+  for name in AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH PYTHONPATH LD_LIBRARY_PATH PATH; do
     export "$name=$(without_own_folders "${!name:-}")"
     [ -n "${!name}" ] || unset "$name"
   done

@@ -44,9 +44,9 @@ class CellParameters:
         return yaml.safe_dump(blocks, sort_keys=False)
 
 
-def parameter_file() -> Path:
-    """The parameter file of the cell, as installed."""
-    return Path(get_package_share_directory('push_bringup')) / 'config' / 'cell.yaml'
+def installed_config(name: str) -> Path:
+    """A file of the cell's configuration folder, as installed."""
+    return Path(get_package_share_directory('push_bringup')) / 'config' / name
 
 
 def resolved(request: Request, defaults: Path, folder: Path, inputs: Path) -> CellParameters:

@@ -12,7 +12,7 @@ from push_core.slider import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Reset
 from push_node import qos
-from push_node.spin import Spinner
+from push_node.spin import Spinner, stop_on_signals
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -31,6 +31,7 @@ class Conductor:
     """A node beside the cell that calls its services and listens to its controller."""
 
     def __init__(self, namespace: str, processes: Processes) -> None:
+        stop_on_signals()
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
         self._node = Node('cell', namespace=namespace)
         self._processes = processes

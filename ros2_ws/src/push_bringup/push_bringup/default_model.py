@@ -5,9 +5,7 @@ import sys
 from pathlib import Path
 
 from push_core.errors import InputError
-from push_gp.learn import learned
-from push_gp.model_file import load_model, save_model
-from push_sim.collect import collect
+from push_gp.sealed_archive import read_sealed
 
 POINTS = 200
 SEED = 0
@@ -19,8 +17,17 @@ def default_model() -> Path:
     if not _is_good(path):
         sys.stderr.write(f'learning the default model from {POINTS} simulated pushes, once\n')
         path.parent.mkdir(parents=True, exist_ok=True)
-        save_model(path, learned(collect(POINTS, SEED)))
+        _learn(path)
     return path
+
+
+def _learn(path: Path) -> None:
+    # the physics and the optimiser take a second to import: only who learns waits for them
+    from push_gp.learn import learned  # noqa: PLC0415
+    from push_gp.model_file import save_model  # noqa: PLC0415
+    from push_sim.collect import collect  # noqa: PLC0415
+
+    save_model(path, learned(collect(POINTS, SEED)))
 
 
 def _cache() -> Path:
@@ -30,7 +37,7 @@ def _cache() -> Path:
 
 def _is_good(path: Path) -> bool:
     try:
-        load_model(path)
+        read_sealed(path)
     except InputError:
         return False
     return True

@@ -1,16 +1,17 @@
 """A run of the real node graph: four processes over DDS."""
 
+import os
 import time
 from pathlib import Path
 
 from push_core.errors import RunError
-from push_node.spin import stop_on_signals
 
 from push_bringup.cell_lock import CellLock
-from push_bringup.conductor import Conductor
+from push_bringup.cell_parameters import installed_config
 from push_bringup.processes import Processes
 from push_bringup.request import Request
 
+FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 COMING_TO_REST = 0.3  # [s]: watchdog, braking, and the last messages on their way
 
 
@@ -29,12 +30,15 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
         RunError: the cell did not get ready.
         KeyboardInterrupt: a stop was requested.
     """
-    stop_on_signals()
     with (
         CellLock(request.namespace),
         Processes(params, request.namespace, logs) as processes,
     ):
+        os.environ.setdefault(FAST_DDS_PROFILES, str(installed_config('fastdds.xml')))
         processes.start()
+        # rclpy takes its time to import: the nodes are starting meanwhile
+        from push_bringup.conductor import Conductor  # noqa: PLC0415
+
         conductor = Conductor(request.namespace, processes)
         try:
             return conductor.run(request.seed)
@@ -48,6 +52,7 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 def _stop_in_order(processes: Processes) -> None:
     """The controller first; the recorder last, when the plant is at rest."""
     processes.interrupt('mpc_node', 'gp_server')
-    time.sleep(COMING_TO_REST)
+    time.sleep(FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
+COMING_TO_REST)
     processes.stop('sim_node', 'mpc_node', 'gp_server')
     processes.stop('recorder')

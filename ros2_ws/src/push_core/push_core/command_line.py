@@ -4,6 +4,7 @@ import argparse
 import os
 import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Sequence
 from typing import NoReturn
@@ -34,7 +35,7 @@ def run_command(
     work: Callable[[argparse.Namespace], int | None],
     argv: Sequence[str] | None = None,
 ) -> int:
-    """Parses, works, and turns errors into one line.
+    """Parses, works, and turns errors into one line; SIGTERM cleans up as Ctrl-C does.
 
     Args:
         parser: describes the command line.
@@ -45,6 +46,8 @@ def run_command(
         Exit status: 0 done, 1 the run or check failed, 2 the command was wrong, 130 interrupted.
     """
     arguments = parser.parse_args(argv)
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         return work(arguments) or 0
     except BrokenPipeError:

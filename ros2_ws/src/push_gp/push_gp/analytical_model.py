@@ -15,6 +15,9 @@ from push_core.slider import Slider
 
 from push_gp.model import ModelInfo
 
+ANALYTICAL = 'analytical'
+"""What a user calls it, where others name a model file."""
+
 NOMINAL_DISTANCE = 0.004
 """Travel of the measured pushes [m]: 0.2 s at 20 mm/s."""
 

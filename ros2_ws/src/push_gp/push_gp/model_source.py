@@ -4,11 +4,9 @@ from pathlib import Path
 
 from push_core.slider import Slider
 
-from push_gp.analytical_model import NOMINAL_DISTANCE, AnalyticalModel
+from push_gp.analytical_model import ANALYTICAL, NOMINAL_DISTANCE, AnalyticalModel
 from push_gp.model import PushModel
 from push_gp.model_file import load_model
-
-ANALYTICAL = 'analytical'
 
 
 def model_named(

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from push_core.settings import nested, setting, validate
 from push_core.slider import Slider
 
-from push_gp.analytical_model import NOMINAL_DISTANCE
-from push_gp.model_source import ANALYTICAL
+from push_gp.analytical_model import ANALYTICAL, NOMINAL_DISTANCE
 
 
 @dataclass(frozen=True)
