@@ -13,7 +13,7 @@ from push_core.errors import InputError
 from push_bag.contact import contact
 from push_bag.lap_figure import lap_figure
 from push_bag.run_reader import read_run
-from push_bag.score import score_series
+from push_bag.score import score_json, score_series
 from push_bag.score_table import messages_line, score_rows
 from push_bag.series import RunSeries
 from push_bag.time_figure import time_figure
@@ -21,6 +21,7 @@ from push_bag.timing import timing
 from push_bag.timing_figure import timing_figure
 from push_bag.tracking import track
 
+SCORE_FILE = 'score.json'
 REPORT_FILE = 'report.html'
 
 STYLE = """
@@ -44,16 +45,17 @@ th { width: 200px; font-weight: 600; white-space: nowrap; }
 """
 
 
-def write_report(folder: Path) -> Path:
-    """Puts `report.html` into a run's folder and says where.
+def write_results(folder: Path) -> dict[str, Any]:
+    """Puts `score.json` and `report.html` into a run's folder and returns the score.
 
     Raises:
-        InputError: there is no readable bag or no reference in it, or the file cannot be written.
+        InputError: there is no readable bag or no reference in it, or a file cannot be written.
     """
     run = read_run(folder)
-    path = folder / REPORT_FILE
-    write_atomically(path, report_html(run, score_series(run)).encode())
-    return path
+    score = score_series(run)
+    write_atomically(folder / SCORE_FILE, score_json(score).encode())
+    write_atomically(folder / REPORT_FILE, report_html(run, score).encode())
+    return score
 
 
 def report_html(run: RunSeries, score: Mapping[str, Any]) -> str:

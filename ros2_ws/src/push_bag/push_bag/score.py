@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.atomic_file import write_atomically
 from push_core.errors import InputError
 from push_msgs.msg import ControllerState
 
@@ -32,7 +31,6 @@ LIMITS = {
     'acceleration': ControllerState.LIMITED_ACCELERATION,
     'workspace': ControllerState.LIMITED_WORKSPACE,
 }
-SCORE_FILE = 'score.json'
 
 
 def score_run(folder: Path) -> dict[str, Any]:
@@ -48,17 +46,6 @@ def score_run(folder: Path) -> dict[str, Any]:
         InputError: there is no readable bag, or no reference in it.
     """
     return score_series(read_run(folder))
-
-
-def write_score(folder: Path) -> dict[str, Any]:
-    """Scores a run and puts `score.json` into its folder.
-
-    Raises:
-        InputError: as `score_run`, or the file cannot be written.
-    """
-    score = score_run(folder)
-    write_atomically(folder / SCORE_FILE, score_json(score).encode())
-    return score
 
 
 def score_json(score: Mapping[str, Any]) -> str:

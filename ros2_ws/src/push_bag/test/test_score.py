@@ -5,7 +5,8 @@ import math
 
 import numpy as np
 import pytest
-from push_bag.score import score_json, score_run, write_score
+from push_bag.report import write_results
+from push_bag.score import score_json, score_run
 from push_bag.score_command import main
 from push_core.errors import InputError
 from push_msgs.msg import ControllerState
@@ -142,8 +143,8 @@ def test_facts_and_reference_name_the_run(perfect):
     assert score['model'] == {'points': 200, 'hash': 'abc123' * 8, 'kind': 'gp'}
 
 
-def test_write_score_puts_the_same_json_into_the_folder(perfect):
-    score = write_score(perfect)
+def test_the_results_hold_the_same_score_as_json(perfect):
+    score = write_results(perfect)
     assert json.loads((perfect / 'score.json').read_text()) == score
 
 

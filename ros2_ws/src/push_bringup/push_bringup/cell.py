@@ -165,13 +165,11 @@ def _finish(folder: Path, reason: str) -> int:
     """Scores what was recorded, says how it went, and ends with the folder's path."""
     if not folder.is_dir():
         raise RunError(f'the cell did not get as far as recording: {reason}')
-    from push_bag.report import write_report
-    from push_bag.score import write_score
+    from push_bag.report import write_results
     from push_bag.score_table import score_table
 
     try:
-        score = write_score(folder)
-        write_report(folder)
+        score = write_results(folder)
     except InputError as error:
         raise RunError(f'{reason or error}; what was recorded is in {folder}') from error
     sys.stdout.write(score_table(score))

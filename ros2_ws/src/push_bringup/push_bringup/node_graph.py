@@ -52,7 +52,6 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 def _stop_in_order(processes: Processes) -> None:
     """The controller first; the recorder last, when the plant is at rest."""
     processes.interrupt('mpc_node', 'gp_server')
-    time.sleep(FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
-COMING_TO_REST)
+    time.sleep(COMING_TO_REST)
     processes.stop('sim_node', 'mpc_node', 'gp_server')
     processes.stop('recorder')

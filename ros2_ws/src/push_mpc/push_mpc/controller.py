@@ -14,6 +14,7 @@ from push_mpc.nominal import Plan
 from push_mpc.predictor import Predictor
 from push_mpc.preview import Preview
 from push_mpc.settings import ControllerSettings
+from push_mpc.stages import Stages
 from push_mpc.surrogate import Table
 from push_mpc.tracking_qp import TrackingQP
 
@@ -34,10 +35,10 @@ class Mode(IntEnum):
 
 @dataclass(frozen=True)
 class Model:
-    """What the controller knows of the object's motion: table, linearisation, name."""
+    """What the controller knows of the object's motion: table, stages of the plan, name."""
 
     table: Table
-    preview: Preview
+    stages: Stages
     model_id: str
 
 
@@ -76,6 +77,9 @@ class Controller:
             np.array([weights.position, weights.position, weights.heading, weights.contact]),
             np.array([weights.normal, weights.tangential]),
         )
+        self._stride = horizon_stride(plan, settings)
+        self._steps = self._stride * np.arange(settings.horizon_steps)
+        self._window = self._steps.copy()
         self._model: Model | None = None
         self._sent = _STILL
         self._seen = 0
@@ -88,9 +92,10 @@ class Controller:
 
     def prepared(self, table: Table, model_id: str) -> Model:
         """A model linearised along the plan; may run in another thread."""
-        stride = horizon_stride(self.plan, self.settings)
-        preview = Preview.of(self.plan, table, self._slider.tip_x, stride)
-        return Model(table, preview, model_id)
+        preview = Preview.of(self.plan, table, self._slider.tip_x, self._stride)
+        limits = self._limits(preview)
+        stages = Stages.of(preview.transition, preview.effect, preview.drift, limits)
+        return Model(table, stages, model_id)
 
     def use(self, model: Model) -> None:
         """Takes a prepared model from the next tick on, and warms the solver up."""
@@ -191,17 +196,12 @@ class Controller:
         reference, nominal = plan.at(reference_time)
         deviation = state - reference
         deviation[2] = wrap_angle(deviation[2])
-        window = model.preview.window(
-            round(max(reference_time, 0.0) / plan.period), self.settings.horizon_steps
-        )
-        self._qp.update(
-            model.preview.transition[window],
-            model.preview.effect[window],
-            model.preview.drift[window],
-            deviation,
-            self._contact_bounds(model.preview.contact[window], state[3]),
-            self._input_bounds(model.preview.input[window]),
-        )
+        sample = round(max(reference_time, 0.0) / plan.period)
+        # the horizon stays at the plan's last sample
+        np.minimum(self._steps + sample, len(model.stages) - 1, out=self._window)
+        # a tip that is already off the face must not make the problem infeasible
+        opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
+        self._qp.update(model.stages, self._window, deviation, opening)
         solution = self._qp.solve()
         if not solution.usable:
             self.stop(f'the solver found no input (status {solution.status})')
@@ -216,14 +216,12 @@ class Controller:
         )
         return nominal + solution.inputs[0], tick
 
-    def _contact_bounds(self, nominal: Array, p_y: float) -> tuple[Array, Array]:
-        """Bounds of p_y, opened to where the tip is when it is already off the face."""
-        half = max(0.5 * self._slider.side, abs(p_y))
-        return -half - nominal, half - nominal
-
-    def _input_bounds(self, nominal: Array) -> tuple[Array, Array]:
-        low = np.array([0.0, -self.settings.tangential_speed_limit])
-        high = np.array([self.settings.normal_speed_limit, self.settings.tangential_speed_limit])
+    def _limits(self, preview: Preview) -> tuple[Array, Array]:
+        """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""
+        nominal = np.column_stack([preview.contact, preview.input])
+        half, tangential = 0.5 * self._slider.side, self.settings.tangential_speed_limit
+        low = np.array([-half, 0.0, -tangential])
+        high = np.array([half, self.settings.normal_speed_limit, tangential])
         return low - nominal, high - nominal
 
     def _limit(self, tick: Tick, inputs: Array, heading: float, tip: Array) -> None:

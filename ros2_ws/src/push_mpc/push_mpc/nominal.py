@@ -15,8 +15,8 @@ from push_core.frames import Array
 from push_core.slider import Slider
 from push_core.tracks import Track
 
-_STEPS_PER_SAMPLE = 8
-_SETTLING_LENGTHS = 40.0
+_LONGEST_STEP = 0.0003  # [m]
+_SETTLING_LENGTHS = 30.0
 _LARGEST_SIDE_SLIP = math.radians(45.0)
 
 
@@ -103,8 +103,7 @@ def _curvature(track: Track, s: Array) -> Array:
 def _side_slip(track: Track, s: Array, slip_length: float) -> Array:
     """Side-slip alpha (n,) [rad] at arc lengths s (n,), by Runge-Kutta steps backwards in s."""
     settled = s[-1] + _SETTLING_LENGTHS * slip_length
-    step = (s[1] - s[0]) / _STEPS_PER_SAMPLE
-    grid = _grid(track, s, settled, step)
+    grid = _grid(track, s, settled)
     curvatures = _stage_curvatures(track, grid)
     alpha = np.empty(grid.size)
     alpha[-1] = 0.0
@@ -114,11 +113,12 @@ def _side_slip(track: Track, s: Array, slip_length: float) -> Array:
     return alpha[np.searchsorted(grid, s)]
 
 
-def _grid(track: Track, s: Array, settled: float, step: float) -> Array:
+def _grid(track: Track, s: Array, settled: float) -> Array:
     """Steps that hit every sample and every jump of the curvature."""
-    fine = np.linspace(s[0], s[-1], (s.size - 1) * _STEPS_PER_SAMPLE + 1)
-    fine[::_STEPS_PER_SAMPLE] = s
-    tail = np.arange(s[-1] + step, settled, step)
+    count = math.ceil((s[1] - s[0]) / _LONGEST_STEP)
+    fine = np.linspace(s[0], s[-1], (s.size - 1) * count + 1)
+    fine[::count] = s
+    tail = np.arange(s[-1] + _LONGEST_STEP, settled, _LONGEST_STEP)
     laps = np.arange(math.ceil(settled / track.length)) if track.closed else np.zeros(1)
     jumps = (track.breakpoints[None, :] + laps[:, None] * track.length).ravel()
     inside = jumps[(jumps > s[0]) & (jumps < settled)]

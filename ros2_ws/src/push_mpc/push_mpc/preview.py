@@ -41,11 +41,6 @@ class Preview:
         contact = plan.state[ahead, 3]
         return cls(stride, transition, effect[:, :, :2], effect[:, :, 2], plan.input, contact)
 
-    def window(self, sample: int, steps: int) -> Array:
-        """Indices (steps,) of the horizon that starts at a sample; held at the plan's end."""
-        last = len(self.transition) - 1
-        return np.minimum(sample + self.stride * np.arange(steps), last)
-
 
 def _missed(plan: Plan, model: TravelModel, tip_x: float) -> Array:
     """How fast the model's motion at the nominal leaves the plan, (n, 4)."""

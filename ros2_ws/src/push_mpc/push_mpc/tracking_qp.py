@@ -17,13 +17,10 @@ import osqp
 from push_core.frames import Array
 from scipy import sparse
 
-NX, NU = 4, 2
+from push_mpc.stages import A_PATTERN, ENTRIES, INPUT_SCALE, NU, NX, STATE_SCALE, Stages
+
 # OSQP's solved, solved inaccurately, and out of iterations: near enough to steer by
 _USABLE_STATUS = (1, 2, 7)
-_STATE_SCALE = np.array([1e-3, 1e-3, 1e-2, 1e-3])
-_INPUT_SCALE = np.array([1e-2, 1e-2])
-# where a transition can differ from 0: the world position enters no rate
-_A_PATTERN = np.array([[1, 0, 1, 1], [0, 1, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=bool)
 _OSQP = {
     'verbose': False,
     'eps_abs': 3e-4,
@@ -71,9 +68,10 @@ class TrackingQP:
         self._states = NX * (steps + 1)
         self._size = self._states + NU * steps
         self._matrix = self._constraints()
-        self._a_places, self._b_places = self._places()
-        self._low = np.zeros(self._matrix.shape[0])
-        self._high = np.zeros(self._matrix.shape[0])
+        self._places = self._entry_places()
+        rows = self._matrix.shape[0]
+        self._low, self._high = np.zeros(rows), np.zeros(rows)
+        self._entries = np.zeros((steps, ENTRIES))
         self._solver = osqp.OSQP()
         self._solver.setup(
             sparse.csc_matrix(sparse.diags_array(self._cost(state_weights, input_weights))),
@@ -84,85 +82,79 @@ class TrackingQP:
             **_OSQP,
         )
 
-    def update(
-        self,
-        transition: Array,
-        effect: Array,
-        drift: Array,
-        start: Array,
-        contact_bounds: tuple[Array, Array],
-        input_bounds: tuple[Array, Array],
-    ) -> None:
-        """Puts in the numbers of one tick.
+    def update(self, stages: Stages, window: Array, start: Array, opening: float) -> None:
+        """Puts in the numbers of one tick; copies, and makes nothing anew.
 
         Args:
-            transition: A_i (N, 4, 4).
-            effect: B_i (N, 4, 2).
-            drift: c_i (N, 4), how the nominal itself misses the model's motion.
-            start: deviation x_0 (4,) from the nominal.
-            contact_bounds: lower and upper deviation of p_y, each (N,) [m].
-            input_bounds: lower and upper deviation of the inputs, each (N, 2) [m/s].
+            stages: those of the plan.
+            window: which of them the horizon has, (N,).
+            start: deviation x_0 (4,) from the nominal [m, m, rad, m].
+            opening: by how much the bounds of p_y are wider in this tick [m].
         """
-        scaled_a = transition * (_STATE_SCALE / _STATE_SCALE[:, None])
-        scaled_b = effect * (_INPUT_SCALE / _STATE_SCALE[:, None])
-        self._matrix.data[self._a_places] = -scaled_a[:, _A_PATTERN].ravel()
-        self._matrix.data[self._b_places] = -scaled_b.ravel()
-        for bounds, p_y, u in (
-            (self._low, contact_bounds[0], input_bounds[0]),
-            (self._high, contact_bounds[1], input_bounds[1]),
-        ):
-            bounds[:NX] = start / _STATE_SCALE
-            bounds[NX : self._states].reshape(-1, NX)[:] = drift / _STATE_SCALE
-            bounds[self._states : self._states + self.steps] = p_y / _STATE_SCALE[3]
-            bounds[self._states + self.steps :].reshape(-1, NU)[:] = u / _INPUT_SCALE
+        np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
+        self._matrix.data[self._places] = self._entries
+        np.divide(start, STATE_SCALE, out=self._low[:NX])
+        np.take(stages.drift, window, axis=0, out=self._drift(), mode='clip')
+        self._high[: self._states] = self._low[: self._states]
+        for bounds, limits, sign in ((self._low, stages.low, -1), (self._high, stages.high, 1)):
+            limited = bounds[self._states :].reshape(-1, 1 + NU)
+            np.take(limits, window, axis=0, out=limited, mode='clip')
+            limited[:, 0] += sign * opening / STATE_SCALE[3]
         self._solver.update(Ax=self._matrix.data, l=self._low, u=self._high)
+
+    def _drift(self) -> Array:
+        """The part of the bounds that holds the drift, as a view (N, 4)."""
+        return self._low[NX : self._states].reshape(-1, NX)
 
     def solve(self) -> Solution:
         """Solves the problem of the last update, warm-started by the one before."""
         result = self._solver.solve(raise_error=False)
-        inputs = result.x[self._states :].reshape(self.steps, NU) * _INPUT_SCALE
+        inputs = result.x[self._states :].reshape(self.steps, NU) * INPUT_SCALE
         return Solution(inputs, int(result.info.status_val), int(result.info.iter))
 
     def _cost(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""
-        state, inputs = state_weights * _STATE_SCALE**2, input_weights * _INPUT_SCALE**2
+        state, inputs = state_weights * STATE_SCALE**2, input_weights * INPUT_SCALE**2
         diagonal = np.concatenate([np.tile(state, self.steps + 1), np.tile(inputs, self.steps)])
         return np.asarray(2.0 * diagonal / diagonal.max())
 
     def _constraints(self) -> sparse.csc_matrix:
-        """Rows: initial state and dynamics, then p_y of all states but the first, then inputs."""
+        """Rows: initial state and dynamics; then, for each stage, the next p_y and the inputs."""
         n = self.steps
         shift = sparse.eye_array(n + 1, k=-1)
-        previous = sparse.kron(shift, np.where(_A_PATTERN, -1.0, 0.0))
+        previous = sparse.kron(shift, np.where(A_PATTERN, -1.0, 0.0))
         inputs = sparse.vstack([sparse.csc_array((1, n)), sparse.eye_array(n)])
         dynamics = sparse.hstack(
             [sparse.eye_array(self._states) + previous, sparse.kron(inputs, -np.ones((NX, NU)))]
         )
-        contact = sparse.kron(sparse.eye_array(n, n + 1, k=1), np.eye(NX)[3:])
-        contact = sparse.hstack([contact, sparse.csc_array((n, NU * n))])
-        limits = sparse.hstack(
-            [sparse.csc_array((NU * n, self._states)), sparse.eye_array(NU * n)]
+        next_contact = np.zeros((1 + NU, NX))
+        next_contact[0, 3] = 1.0
+        limited = sparse.hstack(
+            [
+                sparse.kron(sparse.eye_array(n, n + 1, k=1), next_contact),
+                sparse.kron(sparse.eye_array(n), np.eye(1 + NU, NU, k=-1)),
+            ]
         )
-        matrix = sparse.csc_matrix(sparse.vstack([dynamics, contact, limits]))
+        matrix = sparse.csc_matrix(sparse.vstack([dynamics, limited]))
         matrix.sort_indices()
         return matrix
 
-    def _places(self) -> tuple[Array, Array]:
-        """Where in the matrix data the entries of A_i (by pattern) and B_i stand, in order."""
+    def _entry_places(self) -> Array:
+        """Where in the matrix data the entries of a `Stages` stand, (N, ENTRIES)."""
         step = np.arange(self.steps)[:, None]
-        a_row, a_column = np.nonzero(_A_PATTERN)
+        a_row, a_column = np.nonzero(A_PATTERN)
         b_row, b_column = np.indices((NX, NU)).reshape(2, -1)
-        rows_below = NX * (step + 1)
-        a = self._data_index(rows_below + a_row, NX * step + a_column)
-        b = self._data_index(rows_below + b_row, self._states + NU * step + b_column)
-        return a, b
+        rows = NX * (step + 1) + np.concatenate([a_row, b_row])
+        columns = np.hstack([NX * step + a_column, self._states + NU * step + b_column])
+        return self._data_index(rows, columns)
 
     def _data_index(self, rows: Array, columns: Array) -> Array:
-        """Index into the matrix data of entries that exist, flattened."""
+        """Index into the matrix data of entries that exist, in the shape of `rows`."""
         count = self._matrix.nnz
         numbered = sparse.csc_array(
             (np.arange(1.0, count + 1.0), self._matrix.indices, self._matrix.indptr),
             shape=self._matrix.shape,
         ).todok()
         pairs = zip(rows.ravel(), columns.ravel(), strict=True)
-        return np.array([int(numbered[int(row), int(column)]) - 1 for row, column in pairs])
+        places = [int(numbered[int(row), int(column)]) - 1 for row, column in pairs]
+        return np.reshape(places, rows.shape)

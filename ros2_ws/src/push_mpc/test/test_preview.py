@@ -43,9 +43,3 @@ def test_a_round_tip_rolls_along_the_face(eight, slider, preview) -> None:
     omega = np.gradient(eight.state[:, 2], eight.period)
     rolled = STRIDE * eight.period * omega * slider.tip_radius
     assert np.allclose(preview.drift[200:900, 3], rolled[200:900], rtol=0, atol=1e-7)
-
-
-def test_a_window_strides_along_the_plan_and_stays_at_its_end(eight, preview) -> None:
-    assert preview.window(10, 4).tolist() == [10, 13, 16, 19]
-    last = len(eight.state) - 1
-    assert preview.window(last - 4, 4).tolist() == [last - 4, last - 1, last, last]

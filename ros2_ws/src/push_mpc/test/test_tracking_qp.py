@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from push_mpc.tracking_qp import NU, NX, TrackingQP
+from push_mpc.stages import NU, NX, Stages
+from push_mpc.tracking_qp import TrackingQP
 from push_sim.perturbation import Kind
 from scipy import sparse
 
@@ -12,7 +13,7 @@ STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 30.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
 
 
-def independent_inputs(transition, effect, drift, start, contact_bounds, input_bounds):
+def independent_inputs(transition, effect, drift, limits, start, opening):
     """Optimal input deviations (N, 2) [m/s], states eliminated, by an interior-point method."""
     free, forced = unrolled(transition, effect, drift, start)
     steps = len(transition)
@@ -21,8 +22,9 @@ def independent_inputs(transition, effect, drift, start, contact_bounds, input_b
     gradient = 2.0 * forced.T @ (weights * free)
     rows = np.vstack([forced[3::NX], np.eye(NU * steps)])
     shift = np.concatenate([free[3::NX], np.zeros(NU * steps)])
-    low = np.concatenate([contact_bounds[0], input_bounds[0].ravel()]) - shift
-    high = np.concatenate([contact_bounds[1], input_bounds[1].ravel()]) - shift
+    low, high = (np.concatenate([limit[:, 0], limit[:, 1:].ravel()]) - shift for limit in limits)
+    low[:steps] -= opening
+    high[:steps] += opening
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     solver = clarabel.DefaultSolver(
@@ -57,9 +59,9 @@ def recorded(tracking, monkeypatch):
     problems, solutions = [], []
     update, solve = TrackingQP.update, TrackingQP.solve
 
-    def keep_problem(self, *problem):
-        problems.append(problem)
-        update(self, *(np.copy(part) for part in problem))
+    def keep_problem(self, stages, window, start, opening):
+        problems.append((*stages.in_si_units(window), start.copy(), opening))
+        update(self, stages, window, start, opening)
 
     def keep_solution(self):
         solutions.append(solve(self))
@@ -81,7 +83,7 @@ def test_every_first_input_is_that_of_the_other_solver_to_1e_4(recorded) -> None
     for problem, solution in list(zip(problems, solutions, strict=True))[::4]:
         expected = independent_inputs(*problem)
         assert np.abs(solution.inputs[0] - expected[0]).max() < 1e-4
-        low, high = problem[5]
+        low, high = (limit[:, 1:] for limit in problem[3])
         at_a_bound += np.any((expected < low + 1e-6) | (expected > high - 1e-6))
     assert at_a_bound >= 3, 'the kicks were too weak to test the bounds'
 
@@ -102,20 +104,20 @@ def problem():
     b = 0.03 * generator.normal(size=(6, NX, NU)) * [[1], [1], [10], [1]]
     c = 1e-4 * generator.normal(size=(6, NX))
     start = np.array([2e-3, -1e-3, 0.02, 1e-3])
-    wide = np.ones(6), np.ones((6, NU))
-    return a, b, c, start, (-wide[0], wide[0]), (-wide[1], wide[1])
+    return a, b, c, (-np.ones((6, 3)), np.ones((6, 3))), start
 
 
-def solved(problem, times=1):
+def solved(problem, times=1, opening=0.0):
+    *stages, start = problem
     qp = TrackingQP(len(problem[0]), STATE_WEIGHTS, INPUT_WEIGHTS)
     for _ in range(times):
-        qp.update(*problem)
+        qp.update(Stages.of(*stages), np.arange(6), start, opening)
         solution = qp.solve()
     return solution
 
 
 def test_without_bounds_it_is_the_least_squares_solution(problem) -> None:
-    free, forced = unrolled(*problem[:4])
+    free, forced = unrolled(*problem[:3], problem[4])
     root = np.sqrt(np.tile(STATE_WEIGHTS, 6))
     rows = np.vstack([root[:, None] * forced, np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6)))])
     right = np.concatenate([-root * free, np.zeros(12)])
@@ -126,8 +128,8 @@ def test_without_bounds_it_is_the_least_squares_solution(problem) -> None:
 def test_inputs_stay_within_their_bounds(problem) -> None:
     free_inputs = solved(problem).inputs
     half = 0.5 * np.abs(free_inputs).max()
-    bounds = np.full((6, NU), -half), np.full((6, NU), half)
-    inputs = solved((*problem[:5], bounds)).inputs
+    limit = np.full((6, 3), [1.0, half, half])
+    inputs = solved((*problem[:3], (-limit, limit), problem[4])).inputs
     assert np.abs(inputs).max() == pytest.approx(half, abs=1e-6)
 
 
@@ -136,9 +138,15 @@ def test_solving_again_starts_from_the_solution(problem) -> None:
     assert np.allclose(solved(problem, times=2).inputs, solved(problem).inputs, atol=1e-6)
 
 
-def test_a_problem_without_a_solution_is_not_usable(problem) -> None:
-    a, b, c, start, _, inputs = problem
-    far_off = np.full(6, 0.5), np.full(6, 0.6)
-    still = np.zeros((6, NU)), np.zeros((6, NU))
-    assert not solved((a, b, c, start, far_off, still)).usable
-    assert solved((a, b, c, start, problem[4], inputs)).usable
+def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened(problem) -> None:
+    far_off = np.full((6, 3), [0.5, 0.0, 0.0]), np.full((6, 3), [0.6, 0.0, 0.0])
+    impossible = (*problem[:3], far_off, problem[4])
+    assert not solved(impossible).usable
+    assert solved(impossible, opening=0.6).usable
+
+
+def test_stages_give_back_what_they_were_made_of(problem) -> None:
+    *parts, _ = problem
+    again = Stages.of(*parts).in_si_units(np.array([3, 1]))
+    for given, found in zip([*parts[:3], *parts[3]], [*again[:3], *again[3]], strict=True):
+        np.testing.assert_allclose(found, given[[3, 1]], rtol=1e-14, atol=1e-18)
