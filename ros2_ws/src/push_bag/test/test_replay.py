@@ -12,7 +12,7 @@ from push_bag.replay import Publishers, in_order, main, play
 from push_core.errors import InputError
 from rclpy.qos import HistoryPolicy, QoSProfile
 
-DOMAIN = 62
+DOMAIN = 66
 
 
 class Clock:

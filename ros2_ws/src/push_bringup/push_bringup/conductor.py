@@ -23,6 +23,8 @@ from push_bringup.processes import Processes
 
 READY_TIMEOUT = 30.0  # [s]
 STALL_TIMEOUT = 10.0  # [s] without a tick
+ANSWER_TIMEOUT = 2.0  # [s] for one attempt
+ATTEMPTS = 10
 RETRY_PERIOD = 0.1  # [s] between two attempts to start
 _STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
 
@@ -87,7 +89,7 @@ class Conductor:
         while not (answer := self._call(self._start, Trigger.Request())).success:
             if time.monotonic() > deadline:
                 raise RunError(f'the cell did not get ready: {answer.message}')
-            self._pause(RETRY_PERIOD)
+            self._came_true(lambda: False, RETRY_PERIOD)
 
     def _watch(self) -> str:
         assert self._plan is not None
@@ -114,22 +116,23 @@ class Conductor:
         self._last_tick = time.monotonic()
 
     def _call(self, client: Client, request: object) -> Any:
+        """The answer of a service; asks again where one gets lost, as at the start it may."""
         self._wait(client.service_is_ready, READY_TIMEOUT, f'no service {client.srv_name}')
-        future = client.call_async(request)
-        self._wait(future.done, READY_TIMEOUT, f'no answer from {client.srv_name}')
-        return future.result()
+        for _ in range(ATTEMPTS):
+            future = client.call_async(request)
+            if self._came_true(future.done, ANSWER_TIMEOUT):
+                return future.result()
+        raise RunError(f'no answer from {client.srv_name}')
 
     def _wait(self, finished: Callable[[], bool], timeout: float, complaint: str) -> None:
-        deadline = time.monotonic() + timeout
-        while not finished():
-            self._spin_once()
-            if time.monotonic() > deadline:
-                raise RunError(f'{complaint} within {timeout:g} s')
+        if not self._came_true(finished, timeout):
+            raise RunError(f'{complaint} within {timeout:g} s')
 
-    def _pause(self, duration: float) -> None:
-        end = time.monotonic() + duration
-        while time.monotonic() < end:
+    def _came_true(self, finished: Callable[[], bool], timeout: float) -> bool:
+        deadline = time.monotonic() + timeout
+        while not finished() and time.monotonic() < deadline:
             self._spin_once()
+        return finished()
 
     def _spin_once(self) -> None:
         """Handles one event, or waits a moment for one."""

@@ -1,5 +1,6 @@
 """Gets the model from the server, as a table, without holding up the loop."""
 
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
@@ -8,6 +9,7 @@ from push_core.errors import PushError
 from push_msgs.msg import ModelInfo
 from push_msgs.srv import Predict
 from push_node.qos import LATCHED
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -15,6 +17,8 @@ from push_mpc.controller import Model
 from push_mpc.conversions import answer_arrays
 from push_mpc.surrogate import Grid, Table
 
+ASK_PERIOD = 0.1  # [s]
+PATIENCE = 1.0  # [s]; a request sent before both sides know each other is lost
 P_Y_POINTS = 37
 BETA_POINTS = 61
 
@@ -33,8 +37,11 @@ class ModelClient:
         self._side = side
         self._prepare = prepare
         self._worker = ThreadPoolExecutor(max_workers=1)
+        self._wanted: ModelInfo | None = None
+        self._asked = -PATIENCE
         self._client = node.create_client(Predict, 'push_gp/predict')
         node.create_subscription(ModelInfo, 'model_info', self._on_model, LATCHED)
+        node.create_timer(ASK_PERIOD, self._ask, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def close(self) -> None:
         """Ends the thread."""
@@ -42,14 +49,26 @@ class ModelClient:
 
     def _on_model(self, info: ModelInfo) -> None:
         self.problem = f'model {info.model_id} announced, its answers are under way'
-        grid = model_grid(info, self._side)
+        self._wanted = info
+        self._asked = -PATIENCE
+        self._ask()
+
+    def _ask(self) -> None:
+        """Asks for the wanted model's answers, again if they do not come."""
+        info = self._wanted
+        overdue = time.monotonic() - self._asked > PATIENCE
+        if info is None or not overdue or not self._client.service_is_ready():
+            return
+        self._asked = time.monotonic()
+        grid, distance = model_grid(info, self._side), info.distance
         p_y, beta = grid.points()
         request = Predict.Request(p_y=p_y.tolist(), beta=beta.tolist(), want_variance=False)
 
         def on_answer(future: Future) -> None:
-            self._worker.submit(self._take, future, grid, info.distance)
+            if self._wanted is info:
+                self._wanted = None
+                self._worker.submit(self._take, future, grid, distance)
 
-        # a request sent before the server is discovered waits for it
         self._client.call_async(request).add_done_callback(on_answer)
 
     def _take(self, future: Future, grid: Grid, distance: float) -> None:

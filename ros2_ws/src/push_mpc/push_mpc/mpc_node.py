@@ -10,7 +10,7 @@ from push_msgs.msg import ControllerState, NominalTrajectory
 from push_node import qos
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
-from push_node.realtime import settle
+from push_node.realtime import settled
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -136,11 +136,15 @@ class MpcNode(Node):  # type: ignore[misc]
         self._tell(tick, stamp, 0.0)
 
     def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        if self._controller.mode in _MOVING:
+            # whoever asks again because the answer got lost shall not begin anew
+            answer.success, answer.message = True, 'already started'
+            return answer
         self._take_model()
         answer.message = self._obstacle()
         answer.success = not answer.message
         if answer.success:
-            self._scheduling = self._scheduling or settle()
+            self._scheduling = self._scheduling or settled(self._settings.mode)
             self._controller.arm()
             self._poses.restart()
             answer.message = f'armed; {self._scheduling}'
@@ -160,8 +164,6 @@ class MpcNode(Node):  # type: ignore[misc]
         """Why nothing may move yet, empty if it may."""
         if self._controller.mode == Mode.STOPPED:
             return f'stopped: {self._controller.stop_reason}; call push_mpc/resume first'
-        if self._controller.mode in _MOVING:
-            return 'already started'
         if not self._controller.model_id:
             return f'waiting for the model: {self._model.problem}'
         if self._settings.require_recorder and not self._recorder.is_recording:

@@ -14,7 +14,7 @@ from push_node.spin import Spinner
 from rclpy.context import Context
 from rclpy.node import Node
 
-DOMAIN = 65
+DOMAIN = 67
 PATIENCE = 20.0
 
 Process = subprocess.Popen[str]

@@ -11,7 +11,7 @@ from push_msgs.srv import Perturb, Reset
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
 from push_node.qos import COMMAND, EVENT, POSE, SCENE
-from push_node.realtime import settle
+from push_node.realtime import settled
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
@@ -57,7 +57,8 @@ class SimNode(Node):  # type: ignore[misc]
         self.create_service(Perturb, 'push_sim/perturb', self._on_perturb)
         self.create_timer(_SCENE_PERIOD, self._publish_scene)
         self.create_timer(_HEALTH_PERIOD, self._report)
-        self.get_logger().info(f'{self._settings.profile}, {self._settings.mode}; {settle()}')
+        profile, mode = self._settings.profile, self._settings.mode
+        self.get_logger().info(f'{profile}, {mode}; {settled(mode)}')
 
     def destroy_node(self) -> None:
         """Frees the physics server as well."""

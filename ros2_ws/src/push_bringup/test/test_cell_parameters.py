@@ -1,0 +1,82 @@
+"""Parameters of a run: file, request, overrides."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+from push_bringup.cell_parameters import installed_config, resolved
+from push_bringup.parameters import page
+from push_bringup.request import Request
+from push_core.errors import InputError
+
+
+def request(**changes):
+    values = {
+        'track': 'square',
+        'speed': 0.05,
+        'controller': 'gp',
+        'model': 'model.npz',
+        'profile': 'ideal',
+        'perturb': 'normal',
+        'laps': 2,
+        'seed': 3,
+        'mode': 'inprocess',
+        'output': Path('runs'),
+        'namespace': '',
+        'overrides': {},
+    }
+    return Request(**{**values, **changes})
+
+
+def resolve(**changes):
+    defaults = installed_config('cell.yaml')
+    return resolved(request(**changes), defaults, Path('runs/run'), Path('inputs'))
+
+
+def test_the_request_reaches_every_node() -> None:
+    parameters = resolve()
+    assert parameters.sim.profile == parameters.mpc.profile == 'ideal'
+    assert (parameters.sim.seed, parameters.sim.perturbation.kind) == (3, 'normal')
+    assert (parameters.mpc.track, parameters.mpc.speed, parameters.mpc.laps) == ('square', 0.05, 2)
+    assert parameters.gp.model == 'model.npz'
+    assert parameters.recorder.folder == 'runs/run'
+
+
+def test_a_profile_brings_the_lag_of_its_robot_to_plant_and_predictor() -> None:
+    for profile, dead_time in (('irb120', 0.06), ('ideal', 0.0)):
+        parameters = resolve(profile=profile)
+        assert parameters.sim.actuator == parameters.mpc.actuator
+        assert parameters.mpc.actuator.dead_time == dead_time
+
+
+def test_an_override_reaches_all_nodes_that_have_it_or_the_one_that_it_names() -> None:
+    both = resolve(overrides={'actuator.lag': 0.02})
+    assert both.sim.actuator.lag == both.mpc.actuator.lag == 0.02
+    one = resolve(overrides={'sim_node.actuator.lag': 0.02})
+    assert (one.sim.actuator.lag, one.mpc.actuator.lag) == (0.02, 0.0)
+
+
+def test_an_override_of_the_profile_brings_its_defaults() -> None:
+    parameters = resolve(profile='irb120', overrides={'mpc_node.profile': 'ideal'})
+    assert (parameters.sim.actuator.lag, parameters.mpc.actuator.lag) == (0.05, 0.0)
+
+
+def test_the_written_file_names_every_value_of_every_node() -> None:
+    parameters = resolve()
+    blocks = yaml.safe_load(parameters.as_yaml())
+    for node, values in parameters.by_node().items():
+        assert blocks[f'/**/{node}']['ros__parameters'] == values
+
+
+def test_an_unknown_parameter_in_the_file_is_refused(tmp_path) -> None:
+    defaults = tmp_path / 'cell.yaml'
+    defaults.write_text('/**/mpc_node:\n  ros__parameters:\n    speeed: 1.0\n')
+    with pytest.raises(InputError, match='speeed'):
+        resolved(request(), defaults, Path('runs/run'), Path('inputs'))
+
+
+def test_the_page_of_parameters_in_the_documentation_is_up_to_date() -> None:
+    documented = Path(__file__).resolve().parents[4] / 'docs' / 'parameters.md'
+    if not documented.exists():
+        pytest.skip('the documentation is not beside this package')
+    assert documented.read_text(encoding='utf-8') == page()

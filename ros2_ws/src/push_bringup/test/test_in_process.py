@@ -1,0 +1,63 @@
+"""A run in one process, through the command."""
+
+import json
+from pathlib import Path
+
+import pytest
+from mcap.reader import make_reader
+from push_bringup.cell import main
+from push_bringup.cell_lock import CellLock
+from push_core.errors import RunError
+
+LINE = ('--mode', 'inprocess', '--track', 'line', '--speed', '0.1')
+
+
+def run(capsys, *arguments):
+    status = main([*LINE, *arguments])
+    lines = capsys.readouterr().out.splitlines()
+    return status, Path(lines[-1])
+
+
+def test_a_run_leaves_a_folder_with_bag_score_and_report(model_file, tmp_path, capsys) -> None:
+    status, folder = run(capsys, '--model', str(model_file), '-o', str(tmp_path / 'runs'))
+    assert status == 0
+    assert folder.parent == tmp_path / 'runs'
+    assert folder.name.endswith('_line_gp_100mms')
+    names = {path.name for path in folder.iterdir()}
+    assert names == {f'{folder.name}_0.mcap', 'metadata.yaml', 'score.json', 'report.html'}
+    score = json.loads((folder / 'score.json').read_text())
+    assert (score['completed'], score['mode'], score['seed']) == (True, 'inprocess', 0)
+
+
+def test_two_runs_within_a_second_get_two_folders(model_file, tmp_path, capsys) -> None:
+    folders = [run(capsys, '--controller', 'analytical', '-o', str(tmp_path))[1] for _ in range(2)]
+    assert folders[0] != folders[1]
+
+
+def test_a_run_that_does_not_reach_its_end_says_why_with_status_1(tmp_path, capsys) -> None:
+    lost = ('-p', 'sim_node.actuator.dead_time:=0.6')
+    arguments = [*LINE, '--controller', 'analytical', '--speed', '0.2', '--track', 'eight']
+    assert main([*arguments, *lost, '-o', str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert 'not completed' in err
+    assert not json.loads((Path(out.splitlines()[-1]) / 'score.json').read_text())['completed']
+
+
+def test_the_bag_holds_what_is_needed_to_repeat_the_run(model_file, tmp_path, capsys) -> None:
+    _, folder = run(capsys, '--model', str(model_file), '-o', str(tmp_path / 'runs'))
+    (path,) = folder.glob('*.mcap')
+    with path.open('rb') as stream:
+        reader = make_reader(stream)
+        (facts,) = (record.metadata for record in reader.iter_metadata())
+        attached = {attachment.name: attachment.data for attachment in reader.iter_attachments()}
+    assert facts['profile'] == 'irb120'
+    assert set(json.loads(facts['versions'])) >= {'numpy', 'osqp', 'pybullet'}
+    assert set(attached) == {'params.yaml', model_file.name}
+    assert attached[model_file.name] == model_file.read_bytes()
+
+
+def test_a_second_cell_of_the_same_name_is_refused() -> None:
+    with CellLock('here'), CellLock('there'), pytest.raises(RunError, match='--namespace'):
+        CellLock('here').__enter__()
+    with CellLock('here'):
+        pass
