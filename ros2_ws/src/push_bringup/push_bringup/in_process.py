@@ -55,6 +55,7 @@ class InProcessCell:
                 to_seconds(nanoseconds(self.plant.time) - origin),
             )
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
+            self.controller.prepare_next()
             self.plant.command(tick.velocity, self.plant.time)
             observation = self.plant.step()
         return self.controller.stop_reason

@@ -80,6 +80,7 @@ class Controller:
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps)
         self._window = self._steps.copy()
+        self._prepared = ('', -1)
         self._model: Model | None = None
         self._sent = _STILL
         self._seen = 0
@@ -157,6 +158,11 @@ class Controller:
         if self.mode == Mode.TRACKING:
             self._predictor.sent(velocity, now)
 
+    def prepare_next(self) -> None:
+        """Does the next tick's work that needs no pose; call it when the command has left."""
+        if self.mode == Mode.TRACKING and self._model is not None:
+            self._prepare(self._model, self._prepared[1] + 1)
+
     def _count_poses(self, now: float) -> None:
         self._seen += 1
         if self._seen > self.settings.good_poses:
@@ -196,13 +202,10 @@ class Controller:
         reference, nominal = plan.at(reference_time)
         deviation = state - reference
         deviation[2] = wrap_angle(deviation[2])
-        sample = round(max(reference_time, 0.0) / plan.period)
-        # the horizon stays at the plan's last sample
-        np.minimum(self._steps + sample, len(model.stages) - 1, out=self._window)
+        self._prepare(model, round(max(reference_time, 0.0) / plan.period))
         # a tip that is already off the face must not make the problem infeasible
         opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        self._qp.update(model.stages, self._window, deviation, opening)
-        solution = self._qp.solve()
+        solution = self._qp.solve(deviation, opening)
         if not solution.usable:
             self.stop(f'the solver found no input (status {solution.status})')
         tick = Tick(
@@ -215,6 +218,15 @@ class Controller:
             solver_status=solution.status,
         )
         return nominal + solution.inputs[0], tick
+
+    def _prepare(self, model: Model, sample: int) -> None:
+        """Readies the program for a horizon that starts at a sample, if it is not ready yet."""
+        if self._prepared == (model.model_id, sample):
+            return
+        # the horizon stays at the plan's last sample
+        np.minimum(self._steps + sample, len(model.stages) - 1, out=self._window)
+        self._qp.prepare(model.stages, self._window)
+        self._prepared = (model.model_id, sample)
 
     def _limits(self, preview: Preview) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""

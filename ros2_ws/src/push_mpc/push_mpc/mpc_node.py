@@ -87,6 +87,7 @@ class MpcNode(Node):  # type: ignore[misc]
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._controller.prepare_next()
 
     def _send(self, tick: Tick, stamp: int) -> None:
         conversions.set_stamp(self._command, stamp)

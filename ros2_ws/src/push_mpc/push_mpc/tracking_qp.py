@@ -1,4 +1,4 @@
-"""The quadratic program of one tick: build once, update, solve.
+"""The quadratic program of one tick: build once, prepare, solve.
 
     min  sum_i  x_i^T Q x_i + u_i^T R u_i
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
@@ -72,6 +72,7 @@ class TrackingQP:
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
         self._entries = np.zeros((steps, ENTRIES))
+        self._opening = 0.0
         self._solver = osqp.OSQP()
         self._solver.setup(
             sparse.csc_matrix(sparse.diags_array(self._cost(state_weights, input_weights))),
@@ -82,35 +83,49 @@ class TrackingQP:
             **_OSQP,
         )
 
-    def update(self, stages: Stages, window: Array, start: Array, opening: float) -> None:
-        """Puts in the numbers of one tick; copies, and makes nothing anew.
+    def prepare(self, stages: Stages, window: Array) -> None:
+        """Puts in what is known before the state is: the greater part of a tick's work.
+
+        Copies, and makes nothing anew.
 
         Args:
             stages: those of the plan.
             window: which of them the horizon has, (N,).
-            start: deviation x_0 (4,) from the nominal [m, m, rad, m].
-            opening: by how much the bounds of p_y are wider in this tick [m].
         """
         np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
         self._matrix.data[self._places] = self._entries
-        np.divide(start, STATE_SCALE, out=self._low[:NX])
         np.take(stages.drift, window, axis=0, out=self._drift(), mode='clip')
-        self._high[: self._states] = self._low[: self._states]
-        for bounds, limits, sign in ((self._low, stages.low, -1), (self._high, stages.high, 1)):
-            limited = bounds[self._states :].reshape(-1, 1 + NU)
-            np.take(limits, window, axis=0, out=limited, mode='clip')
-            limited[:, 0] += sign * opening / STATE_SCALE[3]
-        self._solver.update(Ax=self._matrix.data, l=self._low, u=self._high)
+        self._high[NX : self._states] = self._low[NX : self._states]
+        np.take(stages.low, window, axis=0, out=self._limited(self._low), mode='clip')
+        np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
+        self._opening = 0.0
+        self._solver.update(Ax=self._matrix.data)
+
+    def solve(self, start: Array, opening: float) -> Solution:
+        """Solves the prepared problem, warm-started by the one before.
+
+        Args:
+            start: deviation x_0 (4,) from the nominal [m, m, rad, m].
+            opening: by how much the bounds of p_y are wider than prepared [m].
+        """
+        np.divide(start, STATE_SCALE, out=self._low[:NX])
+        self._high[:NX] = self._low[:NX]
+        wider = (opening - self._opening) / STATE_SCALE[3]
+        self._limited(self._low)[:, 0] -= wider
+        self._limited(self._high)[:, 0] += wider
+        self._opening = opening
+        self._solver.update(l=self._low, u=self._high)
+        result = self._solver.solve(raise_error=False)
+        inputs = result.x[self._states :].reshape(self.steps, NU) * INPUT_SCALE
+        return Solution(inputs, int(result.info.status_val), int(result.info.iter))
 
     def _drift(self) -> Array:
         """The part of the bounds that holds the drift, as a view (N, 4)."""
         return self._low[NX : self._states].reshape(-1, NX)
 
-    def solve(self) -> Solution:
-        """Solves the problem of the last update, warm-started by the one before."""
-        result = self._solver.solve(raise_error=False)
-        inputs = result.x[self._states :].reshape(self.steps, NU) * INPUT_SCALE
-        return Solution(inputs, int(result.info.status_val), int(result.info.iter))
+    def _limited(self, bounds: Array) -> Array:
+        """The part of the bounds that holds those of p_y, v_n and v_t, as a view (N, 3)."""
+        return bounds[self._states :].reshape(-1, 1 + NU)
 
     def _cost(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""

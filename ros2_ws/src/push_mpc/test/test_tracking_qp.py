@@ -57,17 +57,19 @@ def unrolled(transition, effect, drift, start):
 def recorded(tracking, monkeypatch):
     """The problems of 250 ticks with kicks, and the solutions that the controller had."""
     problems, solutions = [], []
-    update, solve = TrackingQP.update, TrackingQP.solve
+    prepare, solve = TrackingQP.prepare, TrackingQP.solve
+    prepared = {}
 
-    def keep_problem(self, stages, window, start, opening):
-        problems.append((*stages.in_si_units(window), start.copy(), opening))
-        update(self, stages, window, start, opening)
+    def keep_problem(self, stages, window):
+        prepared[self] = stages.in_si_units(window)
+        prepare(self, stages, window)
 
-    def keep_solution(self):
-        solutions.append(solve(self))
+    def keep_solution(self, start, opening):
+        problems.append((*prepared[self], start.copy(), opening))
+        solutions.append(solve(self, start, opening))
         return solutions[-1]
 
-    monkeypatch.setattr(TrackingQP, 'update', keep_problem)
+    monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
     monkeypatch.setattr(TrackingQP, 'solve', keep_solution)
     kicks = {30: (Kind.TANGENTIAL, 0.02), 100: (Kind.NORMAL, 0.02), 170: (Kind.TANGENTIAL, -0.02)}
     for tick in range(250):
@@ -111,8 +113,8 @@ def solved(problem, times=1, opening=0.0):
     *stages, start = problem
     qp = TrackingQP(len(problem[0]), STATE_WEIGHTS, INPUT_WEIGHTS)
     for _ in range(times):
-        qp.update(Stages.of(*stages), np.arange(6), start, opening)
-        solution = qp.solve()
+        qp.prepare(Stages.of(*stages), np.arange(6))
+        solution = qp.solve(start, opening)
     return solution
 
 
