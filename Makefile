@@ -17,8 +17,8 @@ test: setup  ## run every test: of each package, then of the cell as a whole
 	@$(PYTEST) -n auto --dist loadfile $(UNIT_TESTS)
 	@$(PYTEST) tests
 
-bench: setup  ## measure solvers and timing on this machine
-	@scripts/in_env ros2 run push_bringup bench timing
+bench: setup  ## the paper's experiments in process, beside the paper's numbers (about five minutes)
+	@scripts/in_env ros2 run push_bringup bench table
 
 lint: setup  ## check style, types, shell scripts and the Dockerfile
 	@scripts/in_env ruff check .

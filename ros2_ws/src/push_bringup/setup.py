@@ -23,6 +23,7 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
+            'bench = push_bringup.bench:main',
             'cell = push_bringup.cell:main',
             'parameters = push_bringup.parameters:main',
         ],
