@@ -14,7 +14,8 @@ demo: setup  ## push the square once round the 8-track, record and score it (DAT
 	@DATA='$(DATA)' scripts/in_env scripts/demo.sh
 
 test: setup  ## run every test: of each package, then of the cell as a whole
-	@$(PYTEST) -n auto --dist loadfile $(UNIT_TESTS)
+	@$(PYTEST) -n auto --dist loadfile -m 'not processes' $(UNIT_TESTS)
+	@$(PYTEST) -m processes $(UNIT_TESTS)
 	@$(PYTEST) tests
 
 bench: setup  ## the paper's experiments in process, beside the paper's numbers (about five minutes)

@@ -17,6 +17,8 @@ from push_bag.recorder_settings import RecorderSettings
 from push_core.errors import InputError
 from rclpy.node import Node
 
+pytestmark = pytest.mark.processes
+
 DOMAIN = 62
 CORE = [topic for topic in CELL_TOPICS if topic.core]
 

@@ -12,6 +12,8 @@ from push_bag.replay import Publishers, in_order, main, play
 from push_core.errors import InputError
 from rclpy.qos import HistoryPolicy, QoSProfile
 
+pytestmark = pytest.mark.processes
+
 DOMAIN = 66
 
 

@@ -19,6 +19,8 @@ from push_msgs.srv import AddPushes, Predict
 from push_node.qos import LATCHED
 from rclpy.experimental import EventsExecutor
 
+pytestmark = pytest.mark.processes
+
 DOMAIN = 63
 PATIENCE = 20.0
 

@@ -21,6 +21,8 @@ from push_node.spin import Spinner
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+pytestmark = pytest.mark.processes
+
 DOMAIN = 65
 PATIENCE = 20.0
 LINE = 'track:=line'
@@ -125,8 +127,10 @@ def cell() -> Iterator[Cell]:
 def started() -> Iterator[Callable[..., 'subprocess.Popen[str]']]:
     processes = []
 
-    def start(*parameters: str) -> 'subprocess.Popen[str]':
-        options = [option for parameter in parameters for option in ('-p', parameter)]
+    def start(*parameters: str, pose_loss: float = 5.0) -> 'subprocess.Popen[str]':
+        # the poses of a test come late on a busy machine; only one test is about that
+        given = [*parameters, f'pose_loss:={pose_loss}']
+        options = [option for parameter in given for option in ('-p', parameter)]
         process = subprocess.Popen(
             [sys.executable, '-m', 'push_mpc.mpc_node', '--ros-args', *options],
             env={**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
@@ -186,11 +190,15 @@ def test_it_answers_each_pose_and_is_still_until_it_has_seen_ten(cell, started) 
     cell.wait(lambda: len(cell.commands) > 20 and not is_zero(cell.commands[-1]))
     armed = [state for state in cell.states if state.mode == ControllerState.ARMED]
     assert len(armed) == 10
-    assert all(is_zero(command) for command in cell.commands[:10])
+    # a listener that is late misses commands, so that they are told by the pose they answer
+    stamps = [state.header.stamp for state in armed]
+    answers = [command for command in cell.commands if command.header.stamp in stamps]
+    assert answers
+    assert all(is_zero(command) for command in answers)
 
 
 def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started) -> None:
-    started(LINE)
+    started(LINE, pose_loss=0.2)
     cell.begin()
     cell.poses_on = False
     cell.wait(lambda: cell.mode() in (ControllerState.HOLDING, ControllerState.STOPPED))

@@ -1,5 +1,8 @@
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from push_node.diagnostics import Reporter, status_name
+
+pytestmark = pytest.mark.processes
 
 
 def test_a_report_arrives_on_diagnostics_under_the_name_of_its_node(made_node, spun_until) -> None:

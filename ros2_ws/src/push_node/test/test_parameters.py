@@ -7,6 +7,8 @@ from push_core.settings import nested, setting, validate
 from push_node.parameters import declared, override
 from rclpy.parameter import Parameter
 
+pytestmark = pytest.mark.processes
+
 
 @dataclass(frozen=True)
 class Engine:

@@ -21,6 +21,8 @@ from push_sim.plant import Plant
 from push_sim.settings import profile
 from rclpy.node import Node
 
+pytestmark = pytest.mark.processes
+
 DOMAIN = '64'
 OBJECT_POSE = [0.1, -0.2, 0.3]
 TIP = Slider().tip_position(np.array(OBJECT_POSE), 0.01).tolist()
