@@ -41,14 +41,16 @@ class Ended:
 
 
 def is_pushing(runs: Path) -> bool:
-    """Whether the one run in a folder has moved the tip at 30 mm/s, as far as recorded."""
+    """Whether the one run in a folder has been pushing for 0.2 s, as far as recorded."""
     try:
         (bag,) = runs.glob('*/*.mcap')
-        tip = read_run(bag).pusher
+        run = read_run(bag)
     except (InputError, ValueError):
         return False
+    tip = run.pusher
     speed = np.hypot(*np.diff(tip.values, axis=0).T) / (np.diff(tip.stamp) * 1e-9)
-    return bool(np.any(speed > 0.03))
+    # the reset before the first command moves the tip as well, in one jump
+    return bool(np.count_nonzero((speed > 0.03) & (speed < 0.3)) > 20)
 
 
 def wait_until(condition: Callable[[], bool], cell: 'subprocess.Popen[str]') -> None:
