@@ -5,14 +5,14 @@ from typing import Any
 import numpy as np
 from push_core.errors import InputError
 from push_core.quaternion import quaternion_to_yaw
+from push_node.stamps import to_nanoseconds
 
 from push_bag.series import Disturbance, Model, Reference
 
 
 def nanoseconds(message: Any) -> int:
     """The stamp of a message's header [ns]."""
-    stamp = message.header.stamp
-    return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
+    return to_nanoseconds(message.header.stamp)
 
 
 def planar_pose(message: Any) -> tuple[float, ...]:

@@ -14,7 +14,6 @@ class Preview:
     """Transitions of one horizon step from every sample of a plan.
 
     Attributes:
-        stride: samples of the plan in one horizon step.
         transition: A (n, 4, 4).
         effect: B (n, 4, 2).
         drift: c (n, 4): motion of the model along the plan minus that of the plan.
@@ -22,7 +21,6 @@ class Preview:
         contact: nominal p_y at the end of the step (n,) [m].
     """
 
-    stride: int
     transition: Array
     effect: Array
     drift: Array
@@ -39,7 +37,7 @@ class Preview:
         index = np.arange(len(plan.state))
         ahead = np.minimum(index + stride, len(index) - 1)
         contact = plan.state[ahead, 3]
-        return cls(stride, transition, effect[:, :, :2], effect[:, :, 2], plan.input, contact)
+        return cls(transition, effect[:, :, :2], effect[:, :, 2], plan.input, contact)
 
 
 def _missed(plan: Plan, model: TravelModel, tip_x: float) -> Array:
