@@ -12,6 +12,7 @@ from push_core.slider import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Reset
 from push_node import qos
+from push_node.ask import READY_TIMEOUT, ask
 from push_node.spin import Spinner, stop_on_signals
 from rclpy.client import Client
 from rclpy.node import Node
@@ -21,10 +22,7 @@ from tqdm import tqdm
 
 from push_bringup.processes import Processes
 
-READY_TIMEOUT = 30.0  # [s]
 STALL_TIMEOUT = 10.0  # [s] without a tick
-ANSWER_TIMEOUT = 2.0  # [s] for one attempt
-ATTEMPTS = 10
 RETRY_PERIOD = 0.1  # [s] between two attempts to start
 _STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
 
@@ -116,13 +114,10 @@ class Conductor:
         self._last_tick = time.monotonic()
 
     def _call(self, client: Client, request: object) -> Any:
-        """The answer of a service; asks again where one gets lost, as at the start it may."""
-        self._wait(client.service_is_ready, READY_TIMEOUT, f'no service {client.srv_name}')
-        for _ in range(ATTEMPTS):
-            future = client.call_async(request)
-            if self._came_true(future.done, ANSWER_TIMEOUT):
-                return future.result()
-        raise RunError(f'no answer from {client.srv_name}')
+        answer = ask(client, request, self._came_true)
+        if answer is None:
+            raise RunError(f'no answer from {client.srv_name}')
+        return answer
 
     def _wait(self, finished: Callable[[], bool], timeout: float, complaint: str) -> None:
         if not self._came_true(finished, timeout):

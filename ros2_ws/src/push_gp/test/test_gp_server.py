@@ -16,6 +16,7 @@ from push_gp.gp_model import GpModel
 from push_gp.model_file import save_model
 from push_msgs.msg import ModelInfo
 from push_msgs.srv import AddPushes, Predict
+from push_node.ask import ask
 from push_node.qos import LATCHED
 from rclpy.experimental import EventsExecutor
 
@@ -38,10 +39,13 @@ class Client:
         self.adder = self.node.create_client(AddPushes, 'push_gp/add_pushes')
 
     def wait_until(self, condition: Callable[[], bool]) -> None:
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, 'the server did not answer'
+        assert self._happens(condition, PATIENCE), 'the server did not answer'
+
+    def _happens(self, condition: Callable[[], bool], timeout: float) -> bool:
+        end = time.monotonic() + timeout
+        while not condition() and time.monotonic() < end:
             self.executor.spin_once(timeout_sec=0.1)
+        return condition()
 
     def predict(self, p_y: Any, beta: Any, *, want_variance: bool = False) -> Predict.Response:
         request = Predict.Request(p_y=p_y, beta=beta, want_variance=want_variance)
@@ -59,10 +63,9 @@ class Client:
         return self._answer(self.adder, request)
 
     def _answer(self, client: Any, request: Any) -> Any:
-        self.wait_until(client.service_is_ready)
-        future = client.call_async(request)
-        self.wait_until(future.done)
-        return future.result()
+        answer = ask(client, request, self._happens)
+        assert answer is not None, f'{client.srv_name} did not answer'
+        return answer
 
 
 def started(*parameters: str) -> subprocess.Popen[str]:
@@ -192,7 +195,7 @@ def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> Non
     ],
 )
 def test_a_wrong_parameter_is_one_line_and_status_2(parameter: str, fault: str) -> None:
-    _, shown = (process := started(parameter)).communicate(timeout=10.0)
+    _, shown = (process := started(parameter)).communicate(timeout=30.0)
     assert process.returncode == 2
     assert fault in shown
     assert shown.count('\n') == 1

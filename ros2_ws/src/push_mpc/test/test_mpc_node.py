@@ -17,6 +17,7 @@ from push_core.slider import Slider
 from push_msgs.msg import ControllerState, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node import qos
+from push_node.ask import ask
 from push_node.spin import Spinner
 from rclpy.node import Node
 from std_srvs.srv import Trigger
@@ -90,17 +91,18 @@ class Cell:
         self._models.publish(info)
 
     def wait(self, finished: Callable[[], bool]) -> None:
-        end = time.monotonic() + PATIENCE
-        while not finished():
-            assert time.monotonic() < end, 'it did not happen'
+        assert self.happens(finished, PATIENCE), 'it did not happen'
+
+    def happens(self, finished: Callable[[], bool], timeout: float) -> bool:
+        end = time.monotonic() + timeout
+        while not finished() and time.monotonic() < end:
             self.spinner.once()
+        return finished()
 
     def call(self, name: str) -> Trigger.Response:
-        client = self._calls[name]
-        self.wait(client.service_is_ready)
-        future = client.call_async(Trigger.Request())
-        self.wait(future.done)
-        return future.result()
+        answer = ask(self._calls[name], Trigger.Request(), self.happens)
+        assert answer is not None, f'{name} did not answer'
+        return answer
 
     def call_until(self, name: str, accepted: Callable[[Trigger.Response], bool]) -> None:
         self.wait(lambda: accepted(self.call(name)))

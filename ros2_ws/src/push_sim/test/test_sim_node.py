@@ -14,6 +14,7 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.slider import Slider
 from push_msgs.msg import Perturbation
 from push_msgs.srv import Perturb, Reset
+from push_node.ask import ask
 from push_node.qos import COMMAND, EVENT, POSE
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
@@ -50,11 +51,14 @@ class Client:
         if self.answer is not None:
             self._commands.publish(self.answer(message))
 
-    def wait(self, finished: Callable[[], bool], timeout: float = 10.0) -> None:
+    def wait(self, finished: Callable[[], bool], timeout: float = 20.0) -> None:
+        assert self._happens(finished, timeout)
+
+    def _happens(self, finished: Callable[[], bool], timeout: float) -> bool:
         end = time.monotonic() + timeout
         while not finished() and time.monotonic() < end:
             self._spinner.once()
-        assert finished()
+        return finished()
 
     def reset(self, seed: int = 5) -> Reset.Response:
         request = Reset.Request(seed=seed, object_pose=OBJECT_POSE, tip_position=TIP)
@@ -64,10 +68,9 @@ class Client:
         return self._call(self._perturb, Perturb.Request(**request))
 
     def _call(self, client, request):
-        self.wait(client.service_is_ready)
-        future = client.call_async(request)
-        self.wait(future.done)
-        return future.result()
+        answer = ask(client, request, self._happens)
+        assert answer is not None, f'{client.srv_name} did not answer'
+        return answer
 
 
 @pytest.fixture(scope='module')
@@ -180,7 +183,7 @@ def test_services_refuse_what_cannot_be_done(client, lockstep) -> None:
 
 def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it() -> None:
     process = start_node('world.substep:=0.003')
-    _, errors = process.communicate(timeout=10.0)
+    _, errors = process.communicate(timeout=30.0)
     assert process.returncode == 2
     assert errors.count('\n') == 1
     assert 'world.substep' in errors
