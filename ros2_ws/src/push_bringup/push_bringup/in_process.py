@@ -57,7 +57,7 @@ class InProcessCell:
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
             self.controller.prepare_next()
             self.plant.command(tick.velocity, self.plant.time)
-            observation = self.plant.step()
+            observation = self.plant.step_until_seen()
         return self.controller.stop_reason
 
     def close(self) -> None:

@@ -40,6 +40,7 @@ class ActuatorSettings:
 
 ACTUATORS = {
     'irb120': ActuatorSettings(),
+    'harsh': ActuatorSettings(),
     'ideal': ActuatorSettings(dead_time=0.0, lag=0.0, acceleration_limit=100.0),
 }
 

@@ -89,8 +89,8 @@ class Collector:
         return before, self._look()
 
     def _look(self) -> Observation:
-        self._sensor.expose(0.0, self._world.object_pose, self._world.tip_position)
-        return self._sensor.show(waiting=0)
+        seen = self._sensor.seen(self._world.object_pose)
+        return Observation(0.0, seen, self._world.tip_position)
 
     def _row(self, before: Observation, after: Observation) -> Array:
         travel = after.tip_position - before.tip_position

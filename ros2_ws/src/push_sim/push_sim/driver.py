@@ -11,13 +11,22 @@ from push_core.frames import Array
 class Driver:
     """Feeds the actuator; its watchdog runs on the plant's clock, not on the commands' stamps."""
 
-    def __init__(self, settings: ActuatorSettings, timeout: float) -> None:
+    def __init__(self, settings: ActuatorSettings, timeout: float, loss: float = 0.0) -> None:
+        """At rest.
+
+        Args:
+            settings: of the robot.
+            timeout: it brakes after this long without a command [s].
+            loss: share of commands that get lost on their way.
+        """
         self._actuator = Actuator(settings)
         self._timeout = timeout
-        self.reset()
+        self._loss = loss
+        self.reset(np.random.default_rng())
 
-    def reset(self) -> None:
-        """At rest, no command under way or known."""
+    def reset(self, random: np.random.Generator) -> None:
+        """At rest, no command under way or known; losses are drawn from this source."""
+        self._random = random
         self._actuator.reset()
         self._inbox: deque[tuple[float, Array]] = deque()
         self._last_arrival = -math.inf
@@ -38,9 +47,12 @@ class Driver:
 
         One that is not finite is no command: the watchdog then stops the tip.
         """
-        if not np.isfinite(velocity).all():
+        if not np.isfinite(velocity).all() or self._is_lost():
             return
         self._inbox.append((arrival, np.array(velocity, dtype=float)))
+
+    def _is_lost(self) -> bool:
+        return self._loss > 0.0 and self._random.random() < self._loss
 
     def advance(self, now: float, duration: float) -> Pair:
         """Moves on from `now` by `duration` [s]; returns the tip's mean velocity."""

@@ -26,7 +26,6 @@ class LockstepPace:
         self._plant = plant
         self._publish = publish
         self._clock = node.create_publisher(ClockMessage, '/clock', 10)
-        self._shown = plant.observe()
         self._answered = False
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(_PATIENCE, self._show_again, clock=steady)
@@ -41,7 +40,7 @@ class LockstepPace:
             return
         self._answered = True
         self._plant.command(velocity, self._plant.time)
-        self._show(self._plant.step())
+        self._show(self._plant.step_until_seen())
 
     def stamp(self, plant_time: float) -> int:
         """The cell's time [ns] at a plant time [s]: they are the same."""

@@ -30,7 +30,7 @@ class Plant:
 
     def __init__(self, settings: SimSettings, slider: Slider) -> None:
         self._world = BulletWorld(settings.world, slider)
-        self._driver = Driver(settings.actuator, settings.command_timeout)
+        self._driver = Driver(settings.actuator, settings.command_timeout, settings.command_loss)
         self._sensor = Sensor(settings.sensor)
         self._schedule = Schedule(settings.perturbation)
         self._substeps = settings.world.substeps
@@ -55,14 +55,16 @@ class Plant:
         _check_start(object_pose, tip_position, seed)
         self._ticks = 0
         self._world.reset(object_pose, tip_position)
-        self._driver.reset()
+        random = np.random.default_rng(seed)
+        self._driver.reset(random.spawn(1)[0])
         self._schedule.reset()
-        self._sensor.reset(np.random.default_rng(seed))
+        self._sensor.reset(random)
         self._disturbances.clear()
         self._disturb_if_due()
-        for late in range(self._latency, -1, -self._substeps):
-            self._expose(-late)
-        return self.observe()
+        self._pictures = 0
+        self._aim_next_picture()
+        self._expose_until(0)
+        return self._sensor.show_first()
 
     def command(self, velocity: Array, arrival: float) -> None:
         """Hands a tip velocity (2,) [m/s] to the driver at a plant time [s], now or later."""
@@ -70,22 +72,23 @@ class Plant:
             self._schedule.motion_commanded(arrival)
         self._driver.command(velocity, arrival)
 
-    def step(self) -> Observation:
-        """Advances one period; returns what the sensor shows then."""
+    def step(self) -> Observation | None:
+        """Advances one period; returns what the sensor shows then, None where that got lost."""
         self._disturb_if_due()
         start, duration = self.time, self._substep
-        exposure = (-self._latency) % self._substeps or self._substeps
         for substep in range(self._substeps):
             mean_velocity = self._driver.advance(start + substep * duration, duration)
             self._world.advance(mean_velocity, 1)
-            if substep + 1 == exposure:
-                self._expose(exposure)
+            self._expose_until(substep + 1)
         self._ticks += 1
-        return self.observe()
+        return self._sensor.show()
 
-    def observe(self) -> Observation:
-        """What the sensor shows now."""
-        return self._sensor.show(self._latency // self._substeps)
+    def step_until_seen(self) -> Observation:
+        """Advances to the next picture; periods whose picture gets lost pass unanswered."""
+        while True:
+            observation = self.step()
+            if observation is not None:
+                return observation
 
     def perturb(self, perturbation: Perturbation) -> Disturbance:
         """Disturbs the object now."""
@@ -141,8 +144,18 @@ class Plant:
         elapsed = (self._ticks * self._substeps + substep) * self._substep
         return round((self.START + elapsed) / _NANOSECOND) * _NANOSECOND
 
-    def _expose(self, substep: int) -> None:
-        self._sensor.expose(self._time(substep), self.object_pose, self.tip_position)
+    def _aim_next_picture(self) -> None:
+        due = self._pictures * self._substeps
+        self._exposure = due - self._latency - self._sensor.extra_delay(self._substep)
+
+    def _expose_until(self, substep: int) -> None:
+        """Takes the pictures that are due up to a substep of the current period."""
+        period_start = self._ticks * self._substeps
+        while self._exposure <= period_start + substep:
+            time = self._time(self._exposure - period_start)
+            self._sensor.expose(time, self.object_pose, self.tip_position)
+            self._pictures += 1
+            self._aim_next_picture()
 
     def _disturb_if_due(self) -> None:
         due = self._schedule.due(self.time)

@@ -60,6 +60,13 @@ class SensorSettings:
     latency: float = setting(
         0.005, 'time from exposure to publication', unit='s', low=0.0, high=0.5
     )
+    jitter: float = setting(
+        0.0, 'most that a picture comes later, drawn for each', unit='s', low=0.0, high=0.009
+    )
+    dropout: float = setting(0.0, 'share of pictures that get lost', low=0.0, high=0.9)
+    freeze_rate: float = setting(
+        0.0, 'how often the pose stands still for 0.1 s', unit='1/s', low=0.0, high=5.0
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -95,6 +102,7 @@ class SimSettings:
     command_timeout: float = setting(
         0.05, 'the driver brakes after this long without a command', unit='s', low=0.001, high=10.0
     )
+    command_loss: float = setting(0.0, 'share of commands that get lost', low=0.0, high=0.9)
 
     def __post_init__(self) -> None:
         validate(self)
@@ -106,6 +114,18 @@ PROFILES = {
         SimSettings(),
         actuator=ACTUATORS['ideal'],
         sensor=SensorSettings(position_noise=0.0, angle_noise=0.0, latency=0.0),
+    ),
+    'harsh': replace(
+        SimSettings(),
+        sensor=SensorSettings(
+            position_noise=0.3e-3,
+            angle_noise=math.radians(0.1),
+            latency=0.01,
+            jitter=0.005,
+            dropout=0.02,
+            freeze_rate=0.1,
+        ),
+        command_loss=0.01,
     ),
 }
 

@@ -49,9 +49,9 @@ class SimNode(Node):  # type: ignore[misc]
         )
         self._slider = Slider()
         self._plant = Plant(self._settings, self._slider)
-        self._reset_to_start()
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)
+        self._pace.restart(self._start())
         self.create_subscription(TwistStamped, 'pusher_velocity_cmd', self._on_command, COMMAND)
         self.create_service(Reset, 'push_sim/reset', self._on_reset)
         self.create_service(Perturb, 'push_sim/perturb', self._on_perturb)
@@ -72,10 +72,10 @@ class SimNode(Node):  # type: ignore[misc]
         self._scene = self.create_publisher(MarkerArray, 'scene', SCENE)
         self._reporter = Reporter(self, 'plant')
 
-    def _reset_to_start(self) -> None:
+    def _start(self) -> Observation:
         start = self._settings.start
         tip = start.tip_position(self._slider)
-        self._plant.reset(start.object_pose, tip, self._settings.seed)
+        return self._plant.reset(start.object_pose, tip, self._settings.seed)
 
     def _publish(self, observation: Observation) -> None:
         stamp = to_stamp(self._pace.stamp(observation.time))

@@ -50,6 +50,17 @@ def test_a_command_from_before_a_stop_never_acts_after_it() -> None:
     assert not velocities(driver, 0.055, 0.2).any()
 
 
+def test_commands_get_lost_at_the_stated_rate() -> None:
+    driver = Driver(ACTUATORS['ideal'], timeout=10.0, loss=0.2)
+    driver.reset(np.random.default_rng(0))
+    heeded = 0
+    for tick in range(2000):
+        speed = 1e-5 * (tick + 1)
+        driver.command(np.array([speed, 0.0]), tick * 0.01)
+        heeded += velocities(driver, tick * 0.01, 0.01)[-1] == pytest.approx(speed)
+    assert heeded / 2000 == pytest.approx(0.8, abs=0.03)
+
+
 def test_new_commands_end_a_stop() -> None:
     driver = Driver(ACTUATORS['ideal'], timeout=0.05)
     velocities(driver, 0.0, 0.1)

@@ -22,7 +22,7 @@ def run(plant: Plant, start, weave, periods: int = 100, seed: int = 3) -> np.nda
     shown = []
     for tick in range(periods):
         plant.command(weave(tick), plant.time)
-        seen = plant.step()
+        seen = plant.step_until_seen()
         shown.append([seen.time, *seen.object_pose, *seen.tip_position])
     return np.array(shown)
 
@@ -123,6 +123,32 @@ def test_what_is_shown_was_exposed_one_latency_ago(latency: float, slider, start
         assert plant.time - seen.time == pytest.approx(latency, abs=1e-9)
     expected = start[1] + FORWARD * (seen.time - Plant.START)
     np.testing.assert_allclose(seen.tip_position, expected, atol=1e-4)
+
+
+def test_jitter_adds_up_to_itself_to_the_age_of_a_picture(slider, start) -> None:
+    changes = {'sensor.latency': 0.005, 'sensor.jitter': 0.008}
+    plant = Plant(replaced(profile('ideal'), changes), slider)
+    plant.reset(*start, 0)
+    ages, places = [], []
+    for _ in range(400):
+        plant.command(FORWARD, plant.time)
+        seen = plant.step()
+        ages.append(plant.time - seen.time)
+        places.append(np.hypot(*(seen.tip_position - start[1])) - 0.05 * (seen.time - plant.START))
+    assert min(ages) == pytest.approx(0.005, abs=1e-9)
+    assert max(ages) == pytest.approx(0.013, abs=1e-9)
+    assert np.mean(ages) == pytest.approx(0.009, abs=3e-4)
+    # the stamp tells the true time of the exposure
+    np.testing.assert_allclose(places, 0.0, atol=1e-4)
+
+
+def test_a_lost_picture_is_none_and_the_next_one_is_found(slider, start) -> None:
+    plant = Plant(replaced(profile('ideal'), {'sensor.dropout': 0.5}), slider)
+    assert plant.reset(*start, 0) is not None
+    seen = [plant.step() for _ in range(200)]
+    assert 0.3 < seen.count(None) / 200 < 0.7
+    before = plant.time
+    assert plant.step_until_seen().time == plant.time > before
 
 
 def test_a_normal_perturbation_leaves_a_gap_of_30_mm(ideal, slider, start) -> None:

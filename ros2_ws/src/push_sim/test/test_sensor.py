@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_sim.sensor import Sensor
+from push_sim.sensor import FREEZE_DURATION, Observation, Sensor
 from push_sim.settings import SensorSettings
 
 POSE, TIP = np.array([0.1, -0.2, 3.0]), np.array([0.05, -0.2])
@@ -12,10 +12,7 @@ def test_the_noise_has_the_stated_standard_deviation() -> None:
     settings = SensorSettings(position_noise=1e-4, angle_noise=2e-4)
     sensor = Sensor(settings)
     sensor.reset(np.random.default_rng(0))
-    poses = []
-    for _ in range(4000):
-        sensor.expose(0.0, POSE, TIP)
-        poses.append(sensor.show(waiting=0).object_pose)
+    poses = [sensor.seen(POSE) for _ in range(4000)]
     assert np.mean(poses, axis=0) == pytest.approx(POSE, abs=1e-5)
     assert np.std(poses, axis=0) == pytest.approx([1e-4, 1e-4, 2e-4], rel=0.05)
 
@@ -23,7 +20,7 @@ def test_the_noise_has_the_stated_standard_deviation() -> None:
 def test_a_sensor_without_noise_shows_the_truth() -> None:
     sensor = Sensor(SensorSettings(position_noise=0.0, angle_noise=0.0))
     sensor.expose(1.5, POSE, TIP)
-    seen = sensor.show(waiting=0)
+    seen = sensor.show()
     assert seen.time == 1.5
     assert np.array_equal(seen.object_pose, POSE)
     assert np.array_equal(seen.tip_position, TIP)
@@ -31,13 +28,60 @@ def test_a_sensor_without_noise_shows_the_truth() -> None:
 
 def test_the_heading_is_shown_between_minus_and_plus_half_a_turn() -> None:
     sensor = Sensor(SensorSettings(position_noise=0.0, angle_noise=0.0))
-    sensor.expose(0.0, np.array([0.0, 0.0, 4.0]), TIP)
-    assert sensor.show(waiting=0).object_pose[2] == pytest.approx(4.0 - 2.0 * math.pi)
+    assert sensor.seen(np.array([0.0, 0.0, 4.0]))[2] == pytest.approx(4.0 - 2.0 * math.pi)
 
 
-def test_pictures_under_way_are_not_shown() -> None:
+def test_pictures_are_shown_in_the_order_in_which_they_were_taken() -> None:
     sensor = Sensor(SensorSettings())
     for time in (0.0, 0.01, 0.02):
         sensor.expose(time, POSE, TIP)
-    assert sensor.show(waiting=2).time == 0.0
-    assert sensor.show(waiting=1).time == 0.01
+    assert [sensor.show().time for _ in range(3)] == [0.0, 0.01, 0.02]
+
+
+def shown(settings: SensorSettings, pictures: int, seed: int = 0) -> list[Observation | None]:
+    """What is shown of an object that moves on by a millimetre a picture."""
+    sensor = Sensor(settings)
+    sensor.reset(np.random.default_rng(seed))
+    sensor.expose(0.0, POSE, TIP)
+    seen: list[Observation | None] = [sensor.show_first()]
+    for number in range(1, pictures):
+        sensor.expose(0.01 * number, POSE + np.array([0.001 * number, 0.0, 0.0]), TIP)
+        seen.append(sensor.show())
+    return seen
+
+
+@pytest.mark.parametrize('dropout', [0.02, 0.5])
+def test_pictures_get_lost_at_the_stated_rate_but_never_the_first(dropout: float) -> None:
+    seen = shown(SensorSettings(dropout=dropout), 20_000)
+    assert seen[0] is not None
+    assert seen.count(None) / len(seen) == pytest.approx(dropout, rel=0.1)
+
+
+def test_the_pose_stands_still_for_a_tenth_of_a_second_at_the_stated_rate() -> None:
+    settings = SensorSettings(freeze_rate=0.5, position_noise=0.0)
+    x = np.array([picture.object_pose[0] for picture in shown(settings, 50_000)])
+    frozen = np.concatenate([[False], np.diff(x) == 0.0])
+    begins = np.flatnonzero(frozen & ~np.roll(frozen, 1))
+    ends = np.flatnonzero(frozen & ~np.roll(frozen, -1))
+    # ten pictures show the same pose: nine of them that of the one before
+    assert set((ends - begins + 1).tolist()) == {round(FREEZE_DURATION / 0.01) - 1}
+    moving_time = 0.01 * (~frozen).sum()
+    assert len(begins) / moving_time == pytest.approx(0.5, rel=0.15)
+
+
+def test_a_frozen_pose_keeps_its_true_stamps() -> None:
+    seen = shown(SensorSettings(freeze_rate=5.0), 200)
+    assert [picture.time for picture in seen] == pytest.approx([0.01 * n for n in range(200)])
+
+
+def test_each_trouble_draws_from_a_stream_of_its_own() -> None:
+    quiet = shown(SensorSettings(), 500)
+    troubled = shown(SensorSettings(dropout=0.2), 500)
+    for calm, seen in zip(quiet, troubled, strict=True):
+        assert seen is None or np.array_equal(seen.object_pose, calm.object_pose)
+
+
+def test_the_same_seed_gives_the_same_troubles() -> None:
+    settings = SensorSettings(dropout=0.2, freeze_rate=1.0)
+    lost = [[seen is None for seen in shown(settings, 300, seed)] for seed in (4, 4, 5)]
+    assert lost[0] == lost[1] != lost[2]
