@@ -72,7 +72,7 @@ class LongPushes:
     def direction(self) -> Array:
         """(n,) world directions [rad] in which the tip went."""
         travel = self.tip_end - self.tip_start
-        return np.arctan2(travel[:, 1], travel[:, 0])
+        return np.asarray(np.arctan2(travel[:, 1], travel[:, 0]))
 
     @property
     def distance(self) -> Array:

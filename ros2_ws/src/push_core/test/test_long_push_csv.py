@@ -65,7 +65,8 @@ def test_errors_are_those_of_the_end_pose_whatever_turns_the_heading_counts(
     write: Write,
 ) -> None:
     pushes = read_long_pushes(write(pushed(0), pushed(0, 0.06)))
-    errors = pushes.errors(pushes.end + [[3e-3, 4e-3, 2.0 * math.pi + 0.1], [0.0, 0.0, -0.2]])
+    gaps = np.array([[3e-3, 4e-3, 2.0 * math.pi + 0.1], [0.0, 0.0, -0.2]])
+    errors = pushes.errors(pushes.end + gaps)
     block = errors.of(pushes.on_face)
     assert block['n'] == 1
     assert block['mean_mm'] == pytest.approx(5.0)
@@ -95,7 +96,7 @@ def test_a_file_tells_by_its_columns_what_pushes_it_holds(write: Write, tmp_path
     assert holds_long_pushes(write(pushed(0)))
     (tmp_path / 'short.csv').write_text(','.join(SHORT_COLUMNS), encoding='utf-8')
     assert not holds_long_pushes(tmp_path / 'short.csv')
-    with pytest.raises(InputError, match='column x0_m, .* is missing'):
+    with pytest.raises(InputError, match=r'column x0_m, .* is missing'):
         read_long_pushes(tmp_path / 'short.csv')
 
 
