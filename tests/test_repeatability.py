@@ -12,7 +12,7 @@ from cell_command import Ended
 from push_bag.run_reader import read_run
 from push_msgs.msg import ControllerState
 
-LAP = ('--track', 'line', '--speed', '0.15', '--perturb', 'tangential')
+LAP = ('--track', 'line', '--speed', '0.15', '--perturb', 'tangential', '--profile', 'harsh')
 
 
 @contextmanager

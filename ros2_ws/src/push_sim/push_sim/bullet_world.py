@@ -61,8 +61,7 @@ class BulletWorld:
         self._set_axes(np.array(object_pose, dtype=float))
         self._steps_left = self._follow_steps
         self.place_object(object_pose)
-        x, y = to_body(self._axes, tip_position).tolist()
-        self._place(self._tip, (x, y, HALF_HEIGHT), _UPRIGHT)
+        self.place_tip(tip_position)
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """See `World.advance`."""
@@ -81,6 +80,11 @@ class BulletWorld:
         x, y = to_body(self._axes, object_pose[:2]).tolist()
         turn = yaw_to_quaternion(float(object_pose[2] - self._axes[2]))
         self._place(self._object, (x, y, self._resting_height), turn)
+
+    def place_tip(self, position: Array) -> None:
+        """See `World.place_tip`."""
+        x, y = to_body(self._axes, position).tolist()
+        self._place(self._tip, (x, y, HALF_HEIGHT), _UPRIGHT)
 
     def push_object(self, impulse: Array) -> None:
         """See `World.push_object`."""

@@ -1,4 +1,4 @@
-"""Disturbances as the paper makes them: a hand displaces the object, or knocks it."""
+"""Disturbances as the paper makes them: object or tip is displaced, or the object is knocked."""
 
 import math
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Perturbation:
 
     Attributes:
         kind: NORMAL moves the object away from the tip, along the inward normal of the pushed
-            face; TANGENTIAL moves it along the face, so that p_y grows by the magnitude;
+            face; TANGENTIAL moves the tip along the face, so that p_y grows by the magnitude;
             IMPULSE knocks its centre.
         magnitude: [m], or [N s] of an impulse.
         angle: world direction of an impulse [rad].
@@ -54,10 +54,10 @@ class Perturbation:
             )
 
     def direction(self, object_pose: Array) -> Array:
-        """World unit vector (2,) in which an object at a pose (3,) is moved or knocked."""
+        """World unit vector (2,) of the displacement or the knock, for an object pose (3,)."""
         if self.kind == Kind.IMPULSE:
             return np.array([math.cos(self.angle), math.sin(self.angle)])
-        body = {Kind.NORMAL: (1.0, 0.0), Kind.TANGENTIAL: (0.0, -1.0)}[self.kind]
+        body = {Kind.NORMAL: (1.0, 0.0), Kind.TANGENTIAL: (0.0, 1.0)}[self.kind]
         return np.asarray(rotation(object_pose[2]) @ np.array(body))
 
 
@@ -83,10 +83,13 @@ def disturb(world: World, perturbation: Perturbation, time: float) -> Disturbanc
     pose = world.object_pose
     direction = perturbation.direction(pose)
     shift = perturbation.magnitude * direction
-    if perturbation.kind == Kind.IMPULSE:
-        world.push_object(shift)
-    else:
-        world.place_object(pose + np.array([*shift, 0.0]))
+    match perturbation.kind:
+        case Kind.IMPULSE:
+            world.push_object(shift)
+        case Kind.TANGENTIAL:
+            world.place_tip(world.tip_position + shift)
+        case Kind.NORMAL:
+            world.place_object(pose + np.array([*shift, 0.0]))
     return Disturbance(time, perturbation.kind, perturbation.magnitude, direction)
 
 

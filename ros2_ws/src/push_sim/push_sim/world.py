@@ -23,6 +23,9 @@ class World(Protocol):
     def place_object(self, object_pose: Array) -> None:
         """Lifts the object and puts it down at rest at a pose (3,)."""
 
+    def place_tip(self, position: Array) -> None:
+        """Lifts the tip and puts it down with its centre at a position (2,) [m]."""
+
     def push_object(self, impulse: Array) -> None:
         """Gives the object an impulse (2,) [N s] at its centre in the next time step."""
 

@@ -163,7 +163,9 @@ def test_a_tangential_perturbation_shifts_the_contact_along_the_face(
     ideal, slider, start, magnitude
 ) -> None:
     ideal.reset(*start, 0)
-    ideal.perturb(Perturbation(Kind.TANGENTIAL, magnitude))
+    disturbance = ideal.perturb(Perturbation(Kind.TANGENTIAL, magnitude))
+    np.testing.assert_array_equal(ideal.object_pose, start[0])
+    np.testing.assert_allclose(disturbance.direction, rotation(POSE[2])[:, 1])
     p_y = slider.contact_offset(ideal.object_pose, ideal.tip_position)
     assert p_y == pytest.approx(0.01 + magnitude, abs=1e-9)
     assert slider.gap(ideal.object_pose, ideal.tip_position) == pytest.approx(0.0, abs=1e-9)
