@@ -8,6 +8,8 @@ from numpy.typing import NDArray
 
 # Okabe and Ito's colours, which colour-blind readers tell apart
 BLUE, ORANGE, GREEN, RED = '#0072b2', '#e69f00', '#009e73', '#d55e00'
+PURPLE, SKY = '#cc79a7', '#56b4e9'
+RUN_COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)  # of runs that share a figure
 INK, GREY, PALE, FAINT = '#1f2933', '#8a94a0', '#c3cad1', '#e4e8ec'
 LOW_TO_HIGH = ((0.0, '#2b6cb0'), (0.5, '#b569a8'), (1.0, '#d7301f'))
 MOST_POINTS = 5000  # of one series; keeps a run of any length below 6 MB

@@ -1,4 +1,9 @@
-"""The lap to scale: reference, path coloured by its error, outlines of the square."""
+"""The lap to scale: reference, path coloured by its error, outlines of the square.
+
+Several runs are drawn as one line each; their errors are then told by the figure over time.
+"""
+
+from collections.abc import Sequence
 
 import numpy as np
 import plotly.graph_objects as go
@@ -6,29 +11,55 @@ import plotly.graph_objects as go
 from push_bag.figure_style import GREY, INK, LOW_TO_HIGH, PALE, RED, styled, thinned
 from push_bag.series import Disturbance, Floats, Reference
 from push_bag.tracking import Tracking
+from push_bag.view import View
 
 OUTLINES = 16
 LEAST_COLOUR_RANGE = 0.5  # [mm], so that a perfect lap does not show its noise
 HEIGHT = 720
 
 
-def lap_figure(
-    reference: Reference, tracking: Tracking, disturbances: tuple[Disturbance, ...]
-) -> go.Figure:
-    """The lap in the world frame, axes in millimetres at one scale."""
+def lap_figure(views: Sequence[View]) -> go.Figure:
+    """The laps in the world frame, axes in millimetres at one scale."""
     figure = go.Figure()
-    for trace in (
-        _outlines(tracking, reference.side),
-        _reference(reference),
-        _path(tracking),
-        _start(reference),
-        _kicks(tracking, disturbances),
-    ):
+    traces = _alone(views[0]) if len(views) == 1 else _together(views)
+    for trace in traces:
         figure.add_trace(trace)
     styled(figure, HEIGHT, hovermode='closest')
     figure.update_xaxes(title='x [mm]')
     figure.update_yaxes(title='y [mm]', scaleanchor='x', scaleratio=1.0)
     return figure
+
+
+def _alone(view: View) -> list[go.Scatter]:
+    return [
+        _outlines(view.tracking, view.reference.side),
+        _reference(view.reference),
+        _path(view.tracking),
+        _start(view.reference),
+        _kicks(view.tracking, view.run.disturbances),
+    ]
+
+
+def _together(views: Sequence[View]) -> list[go.Scatter]:
+    # runs of one report mostly share their track; the first one's is drawn
+    return [_reference(views[0].reference), *(_line(view) for view in views)]
+
+
+def _line(view: View) -> go.Scatter:
+    x, y, time = thinned(
+        view.tracking.pose[:, 0] * 1e3,
+        view.tracking.pose[:, 1] * 1e3,
+        view.tracking.reference_time,
+    )
+    return go.Scatter(
+        x=x,
+        y=y,
+        mode='lines',
+        name=view.name,
+        customdata=time[:, None],
+        hovertemplate='t = %{customdata[0]:.2f} s<extra></extra>',
+        line={'color': view.colour, 'width': 1.5},
+    )
 
 
 def _reference(reference: Reference) -> go.Scatter:

@@ -1,47 +1,32 @@
-"""The report of a run: one HTML file that needs nothing else, also offline."""
+"""The report of one run or of several: one HTML file that needs nothing else, also offline."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import plotly.graph_objects as go
 from plotly.offline import get_plotlyjs
 from push_core.atomic_file import write_atomically
-from push_core.errors import InputError
 
-from push_bag.contact import contact
+from push_bag.animation import animation_data, animation_figure
 from push_bag.lap_figure import lap_figure
 from push_bag.run_reader import read_run
 from push_bag.score import score_json, score_series
 from push_bag.score_table import messages_line, score_rows
-from push_bag.series import RunSeries
 from push_bag.time_figure import time_figure
-from push_bag.timing import timing
 from push_bag.timing_figure import timing_figure
-from push_bag.tracking import track
+from push_bag.view import Scored, View, title, views
 
 SCORE_FILE = 'score.json'
 REPORT_FILE = 'report.html'
-
-STYLE = """
-body { margin: 0 auto; max-width: 1180px; padding: 24px; color: #1f2933; background: #f4f6f8;
-       font: 15px/1.45 system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif; }
-h1 { margin: 0 0 4px; font-size: 26px; } h2 { margin: 0 0 8px; font-size: 18px; }
-section { margin: 18px 0; padding: 18px 20px; background: white; border-radius: 8px;
-          box-shadow: 0 1px 3px rgb(0 0 0 / 12%); }
-.verdict { padding: 2px 10px; border-radius: 12px; color: white; font-size: 15px;
-           vertical-align: middle; }
-.yes { background: #00795c; } .no { background: #b34700; }
-.cards { display: flex; flex-wrap: wrap; gap: 12px; margin-top: 16px; }
-.card { flex: 1 1 130px; padding: 12px 16px; background: white; border-radius: 8px;
-        box-shadow: 0 1px 3px rgb(0 0 0 / 12%); }
-.card b { display: block; font-size: 23px; } .card span { color: #5d6873; font-size: 13px; }
-table { border-collapse: collapse; width: 100%; }
-th, td { padding: 5px 12px 5px 0; border-bottom: 1px solid #e4e8ec; text-align: left;
-         vertical-align: top; overflow-wrap: anywhere; }
-td { white-space: pre-wrap; }
-th { width: 200px; font-weight: 600; white-space: nowrap; }
+CONTROLS = """
+<div class="controls"><button id="play">Play</button>
+<select id="pace" title="pace"><option value="0.25">1/4 x</option>
+<option value="1" selected>1 x</option><option value="4">4 x</option></select>
+<input id="cursor" type="range" min="0" step="0.01" value="0"><output id="cursor-time"></output>
+</div><p class="hint">A click on the lap or on a line over time moves the cursor there.</p>
 """
 
 
@@ -54,53 +39,62 @@ def write_results(folder: Path) -> dict[str, Any]:
     run = read_run(folder)
     score = score_series(run)
     write_atomically(folder / SCORE_FILE, score_json(score).encode())
-    write_atomically(folder / REPORT_FILE, report_html(run, score).encode())
+    write_atomically(folder / REPORT_FILE, report_html([(run, score)]).encode())
     return score
 
 
-def report_html(run: RunSeries, score: Mapping[str, Any]) -> str:
+def report_html(scored: Sequence[Scored]) -> str:
     """The report as one page.
 
     Args:
-        run: what was recorded.
-        score: of the same run.
+        scored: runs, each with its score; several are drawn over each other.
 
     Raises:
-        InputError: the run holds no reference.
+        InputError: a run holds no reference.
     """
-    if run.reference is None:
-        raise InputError('the bag holds no nominal trajectory, so there is nothing to report')
-    tracking, touching = track(run, run.reference), contact(run, run.reference)
-    lap = lap_figure(run.reference, tracking, run.disturbances)
-    over_time = time_figure(run, run.reference, tracking, touching)
+    shown = views(scored)
     sections = [
-        _section('The lap', _figure(lap, 'lap')),
-        _section('Over time', _figure(over_time, 'time')),
-        _section('Timing', _figure(timing_figure(timing(run)), 'timing')),
-        _section('Score', _table([*score_rows(score), ('messages', messages_line(score))])),
-        _section('Messages', _table(_message_rows(score))),
-        _section('Run facts', _table(sorted(run.facts.items()))),
+        _section('The lap', _figure(lap_figure(shown), 'lap')),
+        _section('In motion', CONTROLS + _figure(animation_figure(shown), 'animation')),
+        _section('Over time', _figure(time_figure(shown), 'time')),
+        _section('Timing', _figure(timing_figure(shown), 'timing')),
+        _section('Score', _table(_names(shown), _score_rows(shown))),
+        _section('Messages', _table(_names(shown), _message_rows(shown))),
+        _section('Run facts', _table(_names(shown), _fact_rows(shown))),
     ]
-    return _page(_title(score), _head(score), sections)
+    head = _head_of_one(shown[0]) if len(shown) == 1 else _head_of_several(shown)
+    page_title = title(shown[0].score) if len(shown) == 1 else f'{len(shown)} runs'
+    return _page(page_title, head, sections, animation_data(shown))
 
 
-def _page(title: str, head: str, sections: list[str]) -> str:
+def _page(page_title: str, head: str, sections: list[str], data: str) -> str:
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<title>{escape(title)}</title><style>{STYLE}</style>'
-        f'<script>{get_plotlyjs()}</script></head>\n<body>{head}{"".join(sections)}</body></html>\n'
+        f'<title>{escape(page_title)}</title><style>{_resource("report.css")}</style>'
+        f'<script>{get_plotlyjs()}</script></head>\n<body>{head}{"".join(sections)}'
+        f'<script>const ANIMATION = {data};\n{_resource("report.js")}</script></body></html>\n'
     )
 
 
-def _title(score: Mapping[str, Any]) -> str:
-    return f'{score["track"]} at {score["speed_m_s"] * 1e3:.0f} mm/s, {score["controller"]}'
+def _resource(name: str) -> str:
+    return files('push_bag').joinpath(name).read_text(encoding='utf-8')
 
 
-def _head(score: Mapping[str, Any]) -> str:
-    good = score['completed']
-    verdict = f'<span class="verdict {"yes" if good else "no"}">{_verdict(score)}</span>'
-    cards = ''.join(_card(name, value) for name, value in _headlines(score))
-    return f'<h1>{escape(_title(score))} {verdict}</h1><div class="cards">{cards}</div>'
+def _head_of_one(view: View) -> str:
+    good = view.score['completed']
+    verdict = f'<span class="verdict {"yes" if good else "no"}">{_verdict(view.score)}</span>'
+    cards = ''.join(_card(name, value) for name, value in _headlines(view.score))
+    return f'<h1>{escape(title(view.score))} {verdict}</h1><div class="cards">{cards}</div>'
+
+
+def _head_of_several(shown: Sequence[View]) -> str:
+    cards = ''.join(_card(view.name, _in_short(view), view.colour) for view in shown)
+    return f'<h1>{len(shown)} runs</h1><div class="cards">{cards}</div>'
+
+
+def _in_short(view: View) -> str:
+    mean = _measure(view.score['tracking_error_mm']['mean'], 'mm')
+    return mean if view.score['completed'] else f'{mean}, {_verdict(view.score)}'
 
 
 def _verdict(score: Mapping[str, Any]) -> str:
@@ -125,12 +119,13 @@ def _measure(value: float | None, unit: str) -> str:
     return '–' if value is None else f'{value:.2f} {unit}'
 
 
-def _card(name: str, value: str) -> str:
-    return f'<div class="card"><b>{escape(value)}</b><span>{escape(name)}</span></div>'
+def _card(name: str, value: str, colour: str = '') -> str:
+    key = f'<i class="key" style="background: {colour}"></i>' if colour else ''
+    return f'<div class="card"><b>{escape(value)}</b><span>{key}{escape(name)}</span></div>'
 
 
-def _section(title: str, content: str) -> str:
-    return f'<section><h2>{escape(title)}</h2>{content}</section>\n'
+def _section(heading: str, content: str) -> str:
+    return f'<section><h2>{escape(heading)}</h2>{content}</section>\n'
 
 
 def _figure(figure: go.Figure, name: str) -> str:
@@ -138,17 +133,40 @@ def _figure(figure: go.Figure, name: str) -> str:
     return str(figure.to_html(config=config, include_plotlyjs=False, full_html=False, div_id=name))
 
 
-def _message_rows(score: Mapping[str, Any]) -> list[tuple[str, str]]:
-    return [
-        (topic, f'{counts["received"]} received, {_lost(counts["lost"])} lost')
-        for topic, counts in score['messages'].items()
-    ]
+def _names(shown: Sequence[View]) -> list[str]:
+    """Heads of the tables' columns; a run that is alone needs none."""
+    return [view.name for view in shown] if len(shown) > 1 else []
 
 
-def _lost(count: int | None) -> str:
-    return 'unknown' if count is None else str(count)
+def _score_rows(shown: Sequence[View]) -> list[list[str]]:
+    tables = [[*score_rows(view.score), ('messages', messages_line(view.score))] for view in shown]
+    return [[rows[0][0], *(value for _, value in rows)] for rows in zip(*tables, strict=True)]
 
 
-def _table(rows: Iterable[tuple[str, str]]) -> str:
-    lines = (f'<tr><th>{escape(name)}</th><td>{escape(value)}</td></tr>' for name, value in rows)
-    return f'<table>{"".join(lines)}</table>'
+def _message_rows(shown: Sequence[View]) -> list[list[str]]:
+    topics = sorted({topic for view in shown for topic in view.score['messages']})
+    return [[topic, *(_traffic(view.score, topic) for view in shown)] for topic in topics]
+
+
+def _traffic(score: Mapping[str, Any], topic: str) -> str:
+    counts = score['messages'].get(topic)
+    if counts is None:
+        return '–'
+    lost = 'unknown' if counts['lost'] is None else counts['lost']
+    return f'{counts["received"]} received, {lost} lost'
+
+
+def _fact_rows(shown: Sequence[View]) -> list[list[str]]:
+    names = sorted({name for view in shown for name in view.run.facts})
+    return [[name, *(view.run.facts.get(name, '–') for view in shown)] for name in names]
+
+
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    head = _row('th', ['', *heads]) if heads else ''
+    return f'<table>{head}{"".join(_row("td", row) for row in rows)}</table>'
+
+
+def _row(cell: str, values: Sequence[str]) -> str:
+    first, *others = (escape(value) for value in values)
+    cells = ''.join(f'<{cell}>{value}</{cell}>' for value in others)
+    return f'<tr><th>{first}</th>{cells}</tr>'

@@ -33,7 +33,7 @@ def _work(arguments: argparse.Namespace) -> None:
         # plotly takes a second to import: only who asks for a report waits for it
         from push_bag.report import report_html  # noqa: PLC0415
 
-        write_atomically(arguments.html, report_html(run, score).encode())
+        write_atomically(arguments.html, report_html([(run, score)]).encode())
     sys.stdout.write(score_json(score) if arguments.json else score_table(score))
 
 

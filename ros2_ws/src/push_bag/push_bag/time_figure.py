@@ -1,5 +1,6 @@
-"""The run over time: errors, contact and inputs on one linked axis."""
+"""The runs over time: errors, contact and inputs on one linked axis."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -7,10 +8,11 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_msgs.msg import ControllerState
 
-from push_bag.contact import Contact, loss_intervals
-from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled, thinned
-from push_bag.series import Floats, Reference, RunSeries
-from push_bag.tracking import Tracking, reference_times
+from push_bag.contact import loss_intervals
+from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled
+from push_bag.pen import Pen
+from push_bag.tracking import reference_times
+from push_bag.view import View
 
 Shape = dict[str, Any]  # as plotly takes it
 
@@ -23,24 +25,26 @@ ROWS = (
     ('v_n [mm/s]', (0.0, 10.0)),
     ('v_t [mm/s]', (-10.0, 10.0)),
 )
-NOMINAL = 'nominal'
 CROSS_TRACK = 'cross-track error, left positive'
 # the axes' titles explain the other lines
-LEGEND = ('tracking error', CROSS_TRACK, NOMINAL, 'limited', 'no contact', 'perturbation')
+LEGEND = ('tracking error', CROSS_TRACK, 'nominal', 'limited', 'no contact', 'perturbation')
 TIME_AXIS = f'x{len(ROWS)}'  # of the lowest row; all rows use it, so the cursor crosses them
 HEIGHT = 1100
 
 
-def time_figure(
-    run: RunSeries, reference: Reference, tracking: Tracking, contact: Contact
-) -> go.Figure:
-    """Errors, contact offset, gap and inputs over reference time, zooming together."""
+def time_figure(views: Sequence[View]) -> go.Figure:
+    """Errors, contact offset, gap and inputs over reference time, zooming together.
+
+    The first shape of the layout is the time cursor, which `report.js` moves.
+    """
     figure = make_subplots(len(ROWS), 1, shared_xaxes=True, vertical_spacing=0.025)
-    _add_errors(figure, tracking)
-    _add_contact(figure, run, reference, contact)
-    _add_inputs(figure, run)
-    _mark_events(figure, run, contact)
-    _explain(figure)
+    for view in views:
+        pen = Pen(figure, view, alone=len(views) == 1)
+        _add_errors(pen)
+        _add_contact(pen)
+        _add_inputs(pen)
+    _mark_events(figure, views)
+    _explain(figure, LEGEND if len(views) == 1 else [view.name for view in views])
     styled(figure, HEIGHT, hovermode='x unified')
     for row, (title, shown) in enumerate(ROWS, start=1):
         figure.update_yaxes(
@@ -51,67 +55,61 @@ def time_figure(
     return figure.update_xaxes(showspikes=True, spikemode='across', spikethickness=1)
 
 
-def _add_errors(figure: go.Figure, tracking: Tracking) -> None:
+def _add_errors(pen: Pen) -> None:
+    tracking = pen.view.tracking
     time = tracking.reference_time
-    _line(figure, 1, 'tracking error', time, tracking.distance * 1e3, BLUE)
-    _line(figure, 1, CROSS_TRACK, time, tracking.cross_track * 1e3, ORANGE)
-    _line(figure, 2, 'heading error', time, np.degrees(tracking.heading), GREEN)
+    pen.line(1, 'tracking error', time, tracking.distance * 1e3, BLUE)
+    pen.detail(1, CROSS_TRACK, time, tracking.cross_track * 1e3, ORANGE)
+    pen.line(2, 'heading error', time, np.degrees(tracking.heading), GREEN)
 
 
-def _add_contact(
-    figure: go.Figure, run: RunSeries, reference: Reference, contact: Contact
-) -> None:
-    time = reference_times(run, contact.stamp) if contact.stamp.size else np.zeros(0)
-    _line(figure, 3, 'contact offset', time, contact.p_y * 1e3, BLUE)
-    _line(figure, 3, NOMINAL, reference.time, reference.p_y * 1e3, INK, 'dot')
-    _line(figure, 4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
+def _add_contact(pen: Pen) -> None:
+    contact, reference = pen.view.contact, pen.view.reference
+    stamps = contact.stamp
+    time = reference_times(pen.view.run, stamps) if stamps.size else np.zeros(0)
+    pen.line(3, 'contact offset', time, contact.p_y * 1e3, BLUE)
+    pen.wanted(3, reference.time, reference.p_y * 1e3)
+    pen.line(4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
 
 
-def _add_inputs(figure: go.Figure, run: RunSeries) -> None:
+def _add_inputs(pen: Pen) -> None:
+    run = pen.view.run
     ticks = run.state('mode') == ControllerState.TRACKING
     time = run.state('reference_time')[ticks]
     for row, name in ((5, 'v_n'), (6, 'v_t')):
-        speed = run.state(name)[ticks] * 1e3
-        nominal = run.state(f'nominal_{name}')[ticks] * 1e3
-        _line(figure, row, f'commanded {name}', time, speed, BLUE)
-        _line(figure, row, NOMINAL, time, nominal, INK, 'dot')
-    _add_limited(figure, time, run.state('v_n')[ticks] * 1e3, run.state('limited')[ticks])
+        pen.line(row, f'commanded {name}', time, run.state(name)[ticks] * 1e3, BLUE)
+        pen.wanted(row, time, run.state(f'nominal_{name}')[ticks] * 1e3)
+    limited = run.state('limited')[ticks] > 0
+    pen.marks(5, 'limited', time[limited], run.state('v_n')[ticks][limited] * 1e3)
 
 
-def _add_limited(figure: go.Figure, time: Floats, speed: Floats, bits: Floats) -> None:
-    limited = bits > 0
-    if not limited.any():
-        return
-    x, y = thinned(time[limited], speed[limited])
-    marks = go.Scatter(x=x, y=y, mode='markers', name='limited', marker={'color': RED, 'size': 5})
-    figure.add_trace(marks, row=5, col=1)
-
-
-def _loss_bands(run: RunSeries, contact: Contact) -> list[Shape]:
-    """A grey band through all rows for each interval without contact."""
-    intervals = np.array(loss_intervals(contact), np.int64).reshape(-1, 2)
-    if not intervals.size:
-        return []
-    times = reference_times(run, intervals.ravel()).reshape(-1, 2)
-    return [_shape('rect', start, end, GREY) for start, end in times.tolist()]
-
-
-def _disturbance_lines(run: RunSeries, contact: Contact) -> list[Shape]:
-    """A red line through all rows for each perturbation."""
-    if not contact.stamp.size:
-        return []
-    stamps = np.array([each.stamp for each in run.disturbances], np.int64)
-    return [_shape('line', time, time, RED) for time in reference_times(run, stamps).tolist()]
-
-
-def _mark_events(figure: go.Figure, run: RunSeries, contact: Contact) -> None:
-    bands, lines = _loss_bands(run, contact), _disturbance_lines(run, contact)
+def _mark_events(figure: go.Figure, views: Sequence[View]) -> None:
+    bands = [shape for view in views for shape in _loss_bands(view)]
+    lines = [shape for view in views for shape in _disturbance_lines(view)]
     # all at once: adding shapes one by one takes time quadratic in their number
-    figure.update_layout(shapes=bands + lines)
+    cursor = _shape('line', 0.0, 0.0, INK) | {'layer': 'above'}
+    figure.update_layout(shapes=[cursor, *bands, *lines])
     if bands:
         _add_key(figure, 'no contact', {'symbol': 'square', 'color': GREY, 'size': 10})
     if lines:
         _add_key(figure, 'perturbation', {'symbol': 'line-ns-open', 'color': RED, 'size': 10})
+
+
+def _loss_bands(view: View) -> list[Shape]:
+    """A grey band through all rows for each interval without contact."""
+    intervals = np.array(loss_intervals(view.contact), np.int64).reshape(-1, 2)
+    if not intervals.size:
+        return []
+    times = reference_times(view.run, intervals.ravel()).reshape(-1, 2)
+    return [_shape('rect', start, end, GREY) for start, end in times.tolist()]
+
+
+def _disturbance_lines(view: View) -> list[Shape]:
+    """A red line through all rows for each perturbation."""
+    if not view.contact.stamp.size:
+        return []
+    stamps = np.array([each.stamp for each in view.run.disturbances], np.int64)
+    return [_shape('line', time, time, RED) for time in reference_times(view.run, stamps).tolist()]
 
 
 def _shape(kind: str, start: float, end: float, colour: str) -> Shape:
@@ -136,31 +134,9 @@ def _add_key(figure: go.Figure, name: str, marker: dict[str, object]) -> None:
     figure.add_trace(key, row=1, col=1)
 
 
-def _explain(figure: go.Figure) -> None:
-    """Leaves each name of LEGEND in the legend once, and no other."""
+def _explain(figure: go.Figure, names: Sequence[str]) -> None:
+    """Leaves each of the names in the legend once, and no other."""
     figure.update_traces(showlegend=False)
-    for name in LEGEND:
+    for name in names:
         for trace in list(figure.select_traces({'name': name}))[:1]:
             trace.showlegend = True
-
-
-def _line(
-    figure: go.Figure,
-    row: int,
-    name: str,
-    time: Floats,
-    values: Floats,
-    colour: str,
-    dash: str = 'solid',
-) -> None:
-    x, y = thinned(time, values)
-    line = {'color': colour, 'width': 1.5, 'dash': dash}
-    trace = go.Scatter(
-        x=x,
-        y=y,
-        mode='lines',
-        name=name,
-        line=line,
-        hovertemplate='%{y:.2f}',
-    )
-    figure.add_trace(trace, row=row, col=1)

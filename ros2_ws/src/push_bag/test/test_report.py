@@ -1,12 +1,16 @@
 """The report is one file that loads nothing and shows the score."""
 
+import json
 import re
 
+import numpy as np
 import pytest
+from push_bag.animation import animation_data
 from push_bag.report import REPORT_FILE, report_html, write_results
 from push_bag.run_reader import read_run
 from push_bag.score import score_series
 from push_bag.score_command import main
+from push_bag.view import views
 
 
 @pytest.fixture(scope='module')
@@ -42,13 +46,13 @@ def test_the_page_shows_verdict_score_and_facts(page):
 
 def test_a_run_that_never_tracked_has_a_report_too(record):
     run = read_run(record(modes=lambda _tick: 1))
-    assert 'not completed' in report_html(run, score_series(run))
+    assert 'not completed' in report_html([(run, score_series(run))])
 
 
 def test_facts_cannot_inject_markup(perfect):
     run = read_run(perfect)
     run.facts['note'] = '<script>alert(1)</script>'
-    assert '<script>alert' not in report_html(run, score_series(run))
+    assert '<script>alert' not in report_html([(run, score_series(run))])
 
 
 def test_score_writes_the_report_where_told(perfect, tmp_path, capsys):
@@ -62,7 +66,27 @@ def test_perturbations_and_contact_losses_are_marked(record, perfect):
         record(perturbed_at=0.5, gap=lambda time: 0.002 if 0.5 < time < 0.7 else 0.0)
     )
     unmarked = read_run(perfect)
-    page = report_html(marked, score_series(marked))
+    page = report_html([(marked, score_series(marked))])
     for name in ('no contact', 'perturbation'):
         assert f'"name":"{name}"' in page
-    assert '"name":"no contact"' not in report_html(unmarked, score_series(unmarked))
+    assert '"name":"no contact"' not in report_html([(unmarked, score_series(unmarked))])
+
+
+def test_several_runs_share_one_page(record, perfect):
+    runs = [read_run(perfect), read_run(record(perturbed_at=0.5))]
+    page = report_html([(run, score_series(run)) for run in runs])
+    assert '<h1>2 runs</h1>' in page
+    assert page.count('"name":"2: ') >= 3
+    animated = json.loads(re.search(r'const ANIMATION = (.*);\n', page).group(1))
+    assert [len(run['x']) for run in animated['runs']] == [
+        len(run['time']) for run in animated['runs']
+    ]
+
+
+def test_the_animation_shows_where_the_object_was(perfect):
+    run = read_run(perfect)
+    (shown,) = views([(run, score_series(run))])
+    (frames,) = json.loads(animation_data([shown]))['runs']
+    at = np.interp(frames['time'], shown.tracking.reference_time, shown.tracking.pose[:, 0] * 1e3)
+    np.testing.assert_allclose(frames['x'], at, atol=0.6)
+    assert np.max(np.diff(frames['time'])) <= 0.05

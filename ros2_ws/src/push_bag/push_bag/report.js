@@ -1,0 +1,108 @@
+// The moving parts of the report: one time cursor, shared by the animation and the plots.
+// `ANIMATION` is what animation.py wrote: lengths in mm, times in s, all runs on one time.
+'use strict';
+
+const view = document.getElementById('animation');
+const errors = document.getElementById('time');
+const lap = document.getElementById('lap');
+const slider = document.getElementById('cursor');
+const label = document.getElementById('cursor-time');
+const playButton = document.getElementById('play');
+const pace = document.getElementById('pace');
+
+let cursor = 0;
+let playing = false;
+let lastFrame = 0;
+
+function frameAt(run, time) {
+  let low = 0;
+  let high = run.time.length - 1;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (run.time[middle] <= time) low = middle; else high = middle - 1;
+  }
+  return low;
+}
+
+function placed(run, frame, points) {
+  const [x, y, theta] = [run.x[frame], run.y[frame], run.theta[frame]];
+  const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
+  return [points.map(([u, v]) => x + cos * u - sin * v),
+          points.map(([u, v]) => y + sin * u + cos * v)];
+}
+
+function outline(run, frame) {
+  const half = run.side / 2;
+  const corners = [[-half, -half], [half, -half], [half, half], [-half, half], [-half, -half]];
+  return placed(run, frame, corners);
+}
+
+function tip(run, frame) {
+  const circle = Array.from({ length: 25 }, (_, k) => (2 * Math.PI * k) / 24);
+  return [circle.map((a) => run.tip_x[frame] + run.tip_radius * Math.cos(a)),
+          circle.map((a) => run.tip_y[frame] + run.tip_radius * Math.sin(a))];
+}
+
+function trail(run, frame) {
+  const start = Math.max(0, frame - 400);
+  return [run.x.slice(start, frame + 1), run.y.slice(start, frame + 1)];
+}
+
+function horizon(run, frame) {
+  const width = run.horizon_points;
+  if (!width) return [[], []];
+  return [run.horizon_x.slice(frame * width, (frame + 1) * width),
+          run.horizon_y.slice(frame * width, (frame + 1) * width)];
+}
+
+// what moves, in the order of each run's traces
+const MOVING = [trail, horizon, outline, tip];
+
+function draw() {
+  const x = [];
+  const y = [];
+  for (const run of ANIMATION.runs) {
+    const frame = frameAt(run, cursor);
+    for (const part of MOVING) {
+      const line = run.time.length ? part(run, frame) : [[], []];
+      x.push(line[0]);
+      y.push(line[1]);
+    }
+  }
+  Plotly.restyle(view, { x, y }, x.map((_, k) => ANIMATION.first_trace + k));
+  Plotly.relayout(errors, { 'shapes[0].x0': cursor, 'shapes[0].x1': cursor });
+}
+
+function moveTo(time) {
+  cursor = Math.min(Math.max(time, 0), ANIMATION.duration);
+  slider.value = cursor;
+  label.textContent = `${cursor.toFixed(2)} s`;
+  draw();
+}
+
+function advance(now) {
+  if (!playing) return;
+  moveTo(cursor + (Number(pace.value) * (now - lastFrame)) / 1000);
+  lastFrame = now;
+  if (cursor >= ANIMATION.duration) play(false);
+  else requestAnimationFrame(advance);
+}
+
+function play(on) {
+  playing = on;
+  playButton.textContent = on ? 'Pause' : 'Play';
+  if (!on) return;
+  if (cursor >= ANIMATION.duration) cursor = 0;
+  lastFrame = performance.now();
+  requestAnimationFrame(advance);
+}
+
+slider.max = ANIMATION.duration;
+slider.addEventListener('input', () => moveTo(Number(slider.value)));
+playButton.addEventListener('click', () => play(!playing));
+errors.on('plotly_click', (event) => moveTo(event.points[0].x));
+lap.on('plotly_click', (event) => {
+  const data = event.points[0].customdata;
+  if (data) moveTo(data[0]);
+});
+moveTo(0);
