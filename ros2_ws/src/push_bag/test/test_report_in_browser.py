@@ -1,0 +1,88 @@
+"""The report as a person meets it: opened in a browser, played, clicked on."""
+
+import shutil
+import time
+from collections.abc import Iterator
+
+import pytest
+from push_bag.report import REPORT_FILE, write_results
+
+playwright = pytest.importorskip('playwright.sync_api', reason='no playwright to drive a browser')
+BROWSER = shutil.which('chromium') or shutil.which('google-chrome')
+QUIET = ('--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run')
+
+pytestmark = pytest.mark.skipif(BROWSER is None, reason='no chromium; Debian has a package of it')
+
+
+@pytest.fixture(scope='module')
+def complaints() -> list[str]:
+    """What the page writes to the browser's console."""
+    return []
+
+
+@pytest.fixture(scope='module')
+def page(perfect, complaints) -> Iterator[object]:
+    write_results(perfect)
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=BROWSER, args=list(QUIET))
+        page = browser.new_page(viewport={'width': 1240, 'height': 900})
+        page.on('console', lambda message: complaints.append(message.text))
+        page.on('pageerror', lambda error: complaints.append(str(error)))
+        page.on('request', lambda request: complaints.extend(loaded(request.url)))
+        page.goto(f'file://{perfect / REPORT_FILE}')
+        page.wait_for_function('document.querySelectorAll("#animation .scatterlayer").length > 0')
+        yield page
+        browser.close()
+
+
+def loaded(address: str) -> list[str]:
+    """The address, if it is not of this machine."""
+    return [] if address.startswith(('file:', 'data:', 'blob:')) else [address]
+
+
+def cursor(page) -> float:
+    return page.evaluate('cursor')
+
+
+def test_it_opens_without_a_word_on_the_console_and_draws_the_lap(page, complaints) -> None:
+    path = page.locator('#lap .scatterlayer .trace path')
+    assert path.count() > 10
+    assert page.locator('#lap').bounding_box()['height'] > 400
+    assert complaints == []
+
+
+def test_the_animation_plays_and_pauses(page) -> None:
+    before = page.evaluate('document.getElementById("animation").data.at(-2).x[0]')
+    page.select_option('#pace', '0.25')
+    page.click('#play')
+    page.wait_for_function('cursor > 0.05')
+    page.click('#play')
+    stopped = cursor(page)
+    after = page.evaluate('document.getElementById("animation").data.at(-2).x[0]')
+    assert before != after
+    time.sleep(0.2)
+    assert cursor(page) == stopped
+    assert page.text_content('#cursor-time') == f'{stopped:.2f} s'
+
+
+def test_a_click_on_the_error_moves_the_cursor(page) -> None:
+    page.evaluate('moveTo(0)')
+    plot = page.locator('#time .nsewdrag').first
+    plot.scroll_into_view_if_needed()
+    box = plot.bounding_box()
+    page.mouse.move(box['x'] + 0.5 * box['width'], box['y'] + 0.5 * box['height'])
+    page.mouse.click(box['x'] + 0.5 * box['width'], box['y'] + 0.5 * box['height'])
+    page.wait_for_function('cursor > 0')
+    line = page.evaluate('document.getElementById("time").layout.shapes[0].x0')
+    assert line == cursor(page)
+    assert page.evaluate('Number(document.getElementById("cursor").value)') == pytest.approx(
+        line, abs=0.011
+    )
+
+
+def test_moving_the_slider_moves_the_square(page) -> None:
+    page.evaluate('moveTo(0)')
+    page.locator('#cursor').evaluate('(it) => { it.value = it.max; }')
+    page.locator('#cursor').dispatch_event('input')
+    end = page.evaluate('[cursor, ANIMATION.duration]')
+    assert end[0] == pytest.approx(end[1], abs=0.011)
