@@ -52,3 +52,12 @@ def test_lockstep_repeats_bit_for_bit_on_busy_cores_and_agrees_with_in_process(
     np.testing.assert_array_equal(first, second)
     np.testing.assert_allclose(trajectory(in_process.folder), first, rtol=0.0, atol=1e-9)
     assert not np.array_equal(trajectory(other_seed.folder), first)
+
+
+def test_the_family_of_modes_decides_the_same_in_both_modes(
+    run_cell: Callable[..., Ended],
+) -> None:
+    lap = (*LAP, '--controller', 'analytical', '--seed', '3')
+    in_step, in_process = (run_cell(*lap, '--mode', mode) for mode in ('lockstep', 'inprocess'))
+    assert (in_step.status, in_process.status) == (0, 0)
+    np.testing.assert_array_equal(trajectory(in_process.folder), trajectory(in_step.folder))

@@ -2,6 +2,7 @@
 
 import math
 import time as clock
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -10,14 +11,19 @@ from push_core.frames import Array, rotation, wrap_angle
 from push_core.safety import limit
 from push_core.slider import Slider
 
+from push_mpc.force_steering import ForceSteering
 from push_mpc.nominal import Plan
 from push_mpc.predictor import Predictor
-from push_mpc.preview import Preview
 from push_mpc.settings import ControllerSettings
 from push_mpc.stages import Stages
+from push_mpc.steering import Steering
 from push_mpc.surrogate import Table
-from push_mpc.tracking_qp import TrackingQP
+from push_mpc.velocity_steering import VelocitySteering
 
+_STEERINGS: dict[str, Callable[[ControllerSettings, Slider, Plan], Steering]] = {
+    'gp': VelocitySteering,
+    'analytical': ForceSteering,
+}
 _STILL = np.zeros(2)
 _FARTHEST = 1e3  # [m], [rad]; a pose beyond it is a fault of whoever measured it
 
@@ -35,10 +41,10 @@ class Mode(IntEnum):
 
 @dataclass(frozen=True)
 class Model:
-    """What the controller knows of the object's motion: table, stages of the plan, name."""
+    """What the controller knows of the object's motion: table, stages of its programs, name."""
 
     table: Table
-    stages: Stages
+    stages: tuple[Stages, ...]
     model_id: str
 
 
@@ -71,12 +77,7 @@ class Controller:
         self.stop_reason = ''
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider)
-        weights = settings.weights
-        self._qp = TrackingQP(
-            settings.horizon_steps,
-            np.array([weights.position, weights.position, weights.heading, weights.contact]),
-            np.array([weights.normal, weights.tangential]),
-        )
+        self._steering = _STEERINGS[settings.controller](settings, slider, plan)
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps)
         self._window = self._steps.copy()
@@ -93,10 +94,7 @@ class Controller:
 
     def prepared(self, table: Table, model_id: str) -> Model:
         """A model linearised along the plan; may run in another thread."""
-        preview = Preview.of(self.plan, table, self._slider.tip_x, self._stride)
-        limits = self._limits(preview)
-        stages = Stages.of(preview.transition, preview.effect, preview.drift, limits)
-        return Model(table, stages, model_id)
+        return Model(table, self._steering.stages(table, self._stride), model_id)
 
     def use(self, model: Model) -> None:
         """Takes a prepared model from the next tick on, and warms the solver up."""
@@ -205,36 +203,28 @@ class Controller:
         self._prepare(model, round(max(reference_time, 0.0) / plan.period))
         # a tip that is already off the face must not make the problem infeasible
         opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        solution = self._qp.solve(deviation, opening)
-        if not solution.usable:
-            self.stop(f'the solver found no input (status {solution.status})')
+        move = self._steering.solve(state, deviation, reference_time, opening)
+        if not move.usable:
+            self.stop(f'the solver found no input (status {move.status})')
         tick = Tick(
             self.mode,
             _STILL,
             predicted=state,
             reference=reference,
             nominal_input=nominal,
-            iterations=solution.iterations,
-            solver_status=solution.status,
+            iterations=move.iterations,
+            solver_status=move.status,
         )
-        return nominal + solution.inputs[0], tick
+        return move.velocity, tick
 
     def _prepare(self, model: Model, sample: int) -> None:
         """Readies the program for a horizon that starts at a sample, if it is not ready yet."""
         if self._prepared == (model.model_id, sample):
             return
         # the horizon stays at the plan's last sample
-        np.minimum(self._steps + sample, len(model.stages) - 1, out=self._window)
-        self._qp.prepare(model.stages, self._window)
+        np.minimum(self._steps + sample, len(model.stages[0]) - 1, out=self._window)
+        self._steering.prepare(model.stages, self._window)
         self._prepared = (model.model_id, sample)
-
-    def _limits(self, preview: Preview) -> tuple[Array, Array]:
-        """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""
-        nominal = np.column_stack([preview.contact, preview.input])
-        half, tangential = 0.5 * self._slider.side, self.settings.tangential_speed_limit
-        low = np.array([-half, 0.0, -tangential])
-        high = np.array([half, self.settings.normal_speed_limit, tangential])
-        return low - nominal, high - nominal
 
     def _limit(self, tick: Tick, inputs: Array, heading: float, tip: Array) -> None:
         """Turns the input into the command to send, within the safety limits."""

@@ -5,6 +5,7 @@ contact offset is that of the tip's centre: d(p_y)/dt = v_t - (t_y + omega * tip
 paper's [v_p - J t] for a point and holds for a round tip as well.
 """
 
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -18,19 +19,31 @@ class TravelModel(Protocol):
         """Rates (n, 3) [1, 1, rad/m] in the body frame and Jacobian (n, 3, 2) by [p_y, beta]."""
 
 
+@dataclass(frozen=True)
+class TravelMotion:
+    """Motion under a tip that moves: inputs [v_n, v_t].
+
+    Attributes:
+        model: of the object.
+        tip_x: body-frame x [m] of the tip's centre.
+    """
+
+    model: TravelModel
+    tip_x: float
+
+    def rates(self, state: Array, inputs: Array) -> Array:
+        """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
+        return rates(self.model, state, inputs, self.tip_x)
+
+    def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
+        """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 2)."""
+        return linearised(self.model, state, inputs, self.tip_x)
+
+
 def rates(model: TravelModel, state: Array, inputs: Array, tip_x: float) -> Array:
     """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
     twist = _twist(model, state, inputs)[0]
-    cos, sin = np.cos(state[:, 2]), np.sin(state[:, 2])
-    return np.stack(
-        [
-            cos * twist[:, 0] - sin * twist[:, 1],
-            sin * twist[:, 0] + cos * twist[:, 1],
-            twist[:, 2],
-            inputs[:, 1] - twist[:, 1] - tip_x * twist[:, 2],
-        ],
-        axis=-1,
-    )
+    return to_rates(twist, inputs[:, 1] + _contact(twist, tip_x), state[:, 2])
 
 
 def linearised(
@@ -42,9 +55,13 @@ def linearised(
     by_state = np.zeros((len(state), 4, 4))
     by_state[:, 0, 2] = -sin * twist[:, 0] - cos * twist[:, 1]
     by_state[:, 1, 2] = cos * twist[:, 0] - sin * twist[:, 1]
-    by_state[:, :, 3] = _to_rates(by_contact, cos, sin, tip_x)
+    by_state[:, :, 3] = to_rates(by_contact, _contact(by_contact, tip_x), state[:, 2])
     by_inputs = np.stack(
-        [_to_rates(by_input[:, :, column], cos, sin, tip_x) for column in range(2)], axis=-1
+        [
+            to_rates(moved, _contact(moved, tip_x), state[:, 2])
+            for moved in np.moveaxis(by_input, 2, 0)
+        ],
+        axis=-1,
     )
     by_inputs[:, 3, 1] += 1.0
     return by_state, by_inputs
@@ -72,17 +89,17 @@ def discretised(
     return transition, effect
 
 
-def _to_rates(twist: Array, cos: Array, sin: Array, tip_x: float) -> Array:
-    """Contribution (n, 4) of a body twist (n, 3) to the rates."""
-    return np.stack(
-        [
-            cos * twist[:, 0] - sin * twist[:, 1],
-            sin * twist[:, 0] + cos * twist[:, 1],
-            twist[:, 2],
-            -twist[:, 1] - tip_x * twist[:, 2],
-        ],
-        axis=-1,
-    )
+def to_rates(twist: Array, contact: Array, heading: Array) -> Array:
+    """Rates (n, 4) of the state for body twists (n, 3), rates of p_y (n,) and headings (n,)."""
+    cos, sin = np.cos(heading), np.sin(heading)
+    x = cos * twist[:, 0] - sin * twist[:, 1]
+    y = sin * twist[:, 0] + cos * twist[:, 1]
+    return np.stack([x, y, twist[:, 2], contact], axis=-1)
+
+
+def _contact(twist: Array, tip_x: float) -> Array:
+    """Rate of p_y (n,) beside a tip at rest."""
+    return np.asarray(-twist[:, 1] - tip_x * twist[:, 2])
 
 
 def _twist(model: TravelModel, state: Array, inputs: Array) -> tuple[Array, Array, Array]:

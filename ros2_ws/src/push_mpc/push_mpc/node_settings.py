@@ -18,9 +18,6 @@ class MpcSettings(ControllerSettings):
         0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
     )
     laps: int = setting(1, 'rounds of a closed track', low=1, high=1000)
-    controller: str = setting(
-        'gp', 'which model of the object it steers by', choices=('gp', 'analytical')
-    )
     profile: str = setting(
         'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
     )

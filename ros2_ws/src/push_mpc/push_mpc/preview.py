@@ -1,12 +1,23 @@
 """The linearised dynamics along the whole plan, computed once for each plan and model."""
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from push_core.frames import Array
 
-from push_mpc.dynamics import TravelModel, discretised, linearised, rates
+from push_mpc.dynamics import discretised
 from push_mpc.nominal import Plan
+
+
+class Motion(Protocol):
+    """How the state [x, y, theta, p_y] moves under some inputs."""
+
+    def rates(self, state: Array, inputs: Array) -> Array:
+        """Time derivative (n, 4) of states (n, 4) under inputs (n, m)."""
+
+    def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
+        """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, m)."""
 
 
 @dataclass(frozen=True)
@@ -15,9 +26,9 @@ class Preview:
 
     Attributes:
         transition: A (n, 4, 4).
-        effect: B (n, 4, 2).
+        effect: B (n, 4, m).
         drift: c (n, 4): motion of the model along the plan minus that of the plan.
-        input: nominal input at the start of the step (n, 2) [m/s].
+        input: nominal input at the start of the step (n, m).
         contact: nominal p_y at the end of the step (n,) [m].
     """
 
@@ -28,19 +39,19 @@ class Preview:
     contact: Array
 
     @classmethod
-    def of(cls, plan: Plan, model: TravelModel, tip_x: float, stride: int) -> 'Preview':
-        """Linearises a model about a plan."""
-        by_state, by_input = linearised(model, plan.state, plan.input, tip_x)
+    def of(cls, plan: Plan, motion: Motion, stride: int) -> 'Preview':
+        """Linearises a motion about a plan."""
+        by_state, by_input = motion.linearised(plan.state, plan.input)
         # what the plan misses acts like one more input that is always 1
-        inputs = np.concatenate([by_input, _missed(plan, model, tip_x)[:, :, None]], axis=-1)
+        inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None]], axis=-1)
         transition, effect = discretised(by_state, inputs, stride, plan.period)
         index = np.arange(len(plan.state))
         ahead = np.minimum(index + stride, len(index) - 1)
         contact = plan.state[ahead, 3]
-        return cls(transition, effect[:, :, :2], effect[:, :, 2], plan.input, contact)
+        return cls(transition, effect[:, :, :-1], effect[:, :, -1], plan.input, contact)
 
 
-def _missed(plan: Plan, model: TravelModel, tip_x: float) -> Array:
-    """How fast the model's motion at the nominal leaves the plan, (n, 4)."""
-    motion = rates(model, plan.state, plan.input, tip_x)
-    return np.asarray(motion - np.gradient(plan.state, plan.period, axis=0))
+def _missed(plan: Plan, motion: Motion) -> Array:
+    """How fast the motion at the nominal leaves the plan, (n, 4)."""
+    rates = motion.rates(plan.state, plan.input)
+    return np.asarray(rates - np.gradient(plan.state, plan.period, axis=0))

@@ -1,7 +1,7 @@
 """The numbers of the quadratic program at every sample of a plan, as the solver wants them.
 
 Made once for each plan and model, so that a tick only copies its window. The solver sees
-millimetres, centimetres per second and hundredths of a radian.
+millimetres, hundredths of a radian and, at the usual speeds, inputs of about one.
 """
 
 from dataclasses import dataclass
@@ -9,13 +9,41 @@ from dataclasses import dataclass
 import numpy as np
 from push_core.frames import Array
 
-NX, NU = 4, 2
+NX = 4
 STATE_SCALE = np.array([1e-3, 1e-3, 1e-2, 1e-3])
-INPUT_SCALE = np.array([1e-2, 1e-2])
-_LIMITED_SCALE = np.array([STATE_SCALE[3], *INPUT_SCALE])
 # where a transition can differ from 0: the world position enters no rate
 A_PATTERN = np.array([[1, 0, 1, 1], [0, 1, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=bool)
-ENTRIES = int(A_PATTERN.sum()) + NX * NU
+_A_ENTRIES = int(A_PATTERN.sum())
+
+
+@dataclass(frozen=True)
+class InputSpace:
+    """What a controller chooses in every stage, and what of it is limited.
+
+    Attributes:
+        scale: unit in which the solver sees each input (m,).
+        limited: the limited combinations of the inputs, in the solver's units (k, m).
+        limited_scale: unit in which the solver sees each combination (k,).
+    """
+
+    scale: Array
+    limited: Array
+    limited_scale: Array
+
+    @property
+    def size(self) -> int:
+        """Number of inputs m."""
+        return self.scale.size
+
+    @property
+    def entries(self) -> int:
+        """Numbers that describe the dynamics of one stage."""
+        return _A_ENTRIES + NX * self.size
+
+    @property
+    def rows_scale(self) -> Array:
+        """Units of the limited numbers of one stage: the next p_y, then the inputs' (1 + k,)."""
+        return np.concatenate([STATE_SCALE[3:], self.limited_scale])
 
 
 @dataclass(frozen=True)
@@ -23,12 +51,14 @@ class Stages:
     """Stages of the horizon, one for each sample at which it can have one; all scaled.
 
     Attributes:
-        entries: of -A by pattern, then of -B (n, ENTRIES).
+        space: the inputs.
+        entries: of -A by pattern, then of -B (n, entries of the space).
         drift: how the nominal itself misses the model's motion (n, 4).
-        low: lowest deviation of p_y after the stage, of v_n and of v_t in it (n, 3).
-        high: highest ones (n, 3).
+        low: lowest deviation of p_y after the stage, of the limited inputs in it (n, 1 + k).
+        high: highest ones (n, 1 + k).
     """
 
+    space: InputSpace
     entries: Array
     drift: Array
     low: Array
@@ -36,34 +66,43 @@ class Stages:
 
     @classmethod
     def of(
-        cls, transition: Array, effect: Array, drift: Array, limits: tuple[Array, Array]
+        cls,
+        space: InputSpace,
+        transition: Array,
+        effect: Array,
+        drift: Array,
+        limits: tuple[Array, Array],
     ) -> 'Stages':
         """Scales the stages.
 
         Args:
+            space: the inputs.
             transition: A (n, 4, 4).
-            effect: B (n, 4, 2).
+            effect: B (n, 4, m).
             drift: c (n, 4).
-            limits: lowest and highest deviation of [p_y m, v_n m/s, v_t m/s], each (n, 3).
+            limits: lowest and highest deviation of p_y [m] and of the limited combinations of
+                the inputs, each (n, 1 + k).
         """
         a = transition * (STATE_SCALE / STATE_SCALE[:, None])
-        b = effect * (INPUT_SCALE / STATE_SCALE[:, None])
-        entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * NU)], axis=-1)
-        low, high = (np.asarray(limit / _LIMITED_SCALE) for limit in limits)
-        return cls(-entries, drift / STATE_SCALE, low, high)
+        b = effect * (space.scale / STATE_SCALE[:, None])
+        entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * space.size)], axis=-1)
+        low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
+        return cls(space, -entries, drift / STATE_SCALE, low, high)
 
     def __len__(self) -> int:
         return len(self.entries)
 
     def in_si_units(self, window: Array) -> tuple[Array, Array, Array, tuple[Array, Array]]:
-        """What `of` was given, for the stages (N,) of a window."""
-        count = ENTRIES - NX * NU
+        """What `of` was given after the space, for the stages (N,) of a window."""
         transition = np.zeros((len(window), NX, NX))
-        transition[:, A_PATTERN] = -self.entries[window, :count]
-        effect = -self.entries[window, count:].reshape(-1, NX, NU)
+        transition[:, A_PATTERN] = -self.entries[window, :_A_ENTRIES]
+        effect = -self.entries[window, _A_ENTRIES:].reshape(-1, NX, self.space.size)
         return (
             transition * (STATE_SCALE[:, None] / STATE_SCALE),
-            effect * (STATE_SCALE[:, None] / INPUT_SCALE),
+            effect * (STATE_SCALE[:, None] / self.space.scale),
             self.drift[window] * STATE_SCALE,
-            (self.low[window] * _LIMITED_SCALE, self.high[window] * _LIMITED_SCALE),
+            (
+                self.low[window] * self.space.rows_scale,
+                self.high[window] * self.space.rows_scale,
+            ),
         )

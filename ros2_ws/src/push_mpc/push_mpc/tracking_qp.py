@@ -2,7 +2,7 @@
 
     min  sum_i  x_i^T Q x_i + u_i^T R u_i
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
-         |p_y| bounds on every state but the first, bounds on every input
+         bounds on p_y of every state but the first, and on combinations of each u_i
 
 in deviations from the nominal. OSQP sees the problem in millimetres and with its cost divided by
 the largest weight: so scaled, its tail is an order of magnitude shorter than in SI units, and its
@@ -17,7 +17,7 @@ import osqp
 from push_core.frames import Array
 from scipy import sparse
 
-from push_mpc.stages import A_PATTERN, ENTRIES, INPUT_SCALE, NU, NX, STATE_SCALE, Stages
+from push_mpc.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 
 # OSQP's solved, solved inaccurately, and out of iterations: near enough to steer by
 _USABLE_STATUS = (1, 2, 7)
@@ -38,12 +38,14 @@ class Solution:
     """What the solver found.
 
     Attributes:
-        inputs: deviations of the inputs from the nominal (N, 2) [m/s].
+        inputs: deviations of the inputs from the nominal (N, m).
+        cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
         iterations: that it took.
     """
 
     inputs: Array
+    cost: float
     status: int
     iterations: int
 
@@ -56,22 +58,26 @@ class Solution:
 class TrackingQP:
     """One solver with a fixed sparsity; only numbers change from tick to tick."""
 
-    def __init__(self, steps: int, state_weights: Array, input_weights: Array) -> None:
+    def __init__(
+        self, steps: int, space: InputSpace, state_weights: Array, input_weights: Array
+    ) -> None:
         """Sets the solver up.
 
         Args:
             steps: N, length of the horizon.
+            space: the inputs u, m of them.
             state_weights: diagonal of Q (4,) [1/m^2, 1/m^2, 1/rad^2, 1/m^2]; also of Q_N.
-            input_weights: diagonal of R (2,) [s^2/m^2].
+            input_weights: diagonal of R (m,), per squared unit of each input.
         """
         self.steps = steps
+        self._space = space
         self._states = NX * (steps + 1)
-        self._size = self._states + NU * steps
+        self._size = self._states + space.size * steps
         self._matrix = self._constraints()
         self._places = self._entry_places()
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
-        self._entries = np.zeros((steps, ENTRIES))
+        self._entries = np.zeros((steps, space.entries))
         self._opening = 0.0
         self._solver = osqp.OSQP()
         self._solver.setup(
@@ -83,7 +89,7 @@ class TrackingQP:
             **_OSQP,
         )
 
-    def prepare(self, stages: Stages, window: Array) -> None:
+    def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
         """Puts in what is known before the state is: the greater part of a tick's work.
 
         Copies, and makes nothing anew.
@@ -91,6 +97,7 @@ class TrackingQP:
         Args:
             stages: those of the plan.
             window: which of them the horizon has, (N,).
+            first: whose limits hold in the first stage.
         """
         np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
         self._matrix.data[self._places] = self._entries
@@ -98,6 +105,8 @@ class TrackingQP:
         self._high[NX : self._states] = self._low[NX : self._states]
         np.take(stages.low, window, axis=0, out=self._limited(self._low), mode='clip')
         np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
+        self._limited(self._low)[0] = first.low[window[0]]
+        self._limited(self._high)[0] = first.high[window[0]]
         self._opening = 0.0
         self._solver.update(Ax=self._matrix.data)
 
@@ -116,38 +125,41 @@ class TrackingQP:
         self._opening = opening
         self._solver.update(l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
-        inputs = result.x[self._states :].reshape(self.steps, NU) * INPUT_SCALE
-        return Solution(inputs, int(result.info.status_val), int(result.info.iter))
+        inputs = result.x[self._states :].reshape(self.steps, -1) * self._space.scale
+        info = result.info
+        return Solution(inputs, float(info.obj_val), int(info.status_val), int(info.iter))
 
     def _drift(self) -> Array:
         """The part of the bounds that holds the drift, as a view (N, 4)."""
         return self._low[NX : self._states].reshape(-1, NX)
 
     def _limited(self, bounds: Array) -> Array:
-        """The part of the bounds that holds those of p_y, v_n and v_t, as a view (N, 3)."""
-        return bounds[self._states :].reshape(-1, 1 + NU)
+        """The bounds of p_y and of the inputs, as a view (N, 1 + k)."""
+        return bounds[self._states :].reshape(self.steps, -1)
 
     def _cost(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""
-        state, inputs = state_weights * STATE_SCALE**2, input_weights * INPUT_SCALE**2
+        state, inputs = state_weights * STATE_SCALE**2, input_weights * self._space.scale**2
         diagonal = np.concatenate([np.tile(state, self.steps + 1), np.tile(inputs, self.steps)])
         return np.asarray(2.0 * diagonal / diagonal.max())
 
     def _constraints(self) -> sparse.csc_matrix:
-        """Rows: initial state and dynamics; then, for each stage, the next p_y and the inputs."""
+        """Rows: initial state and dynamics; then, for each stage, the next p_y and its inputs."""
         n = self.steps
         shift = sparse.eye_array(n + 1, k=-1)
         previous = sparse.kron(shift, np.where(A_PATTERN, -1.0, 0.0))
         inputs = sparse.vstack([sparse.csc_array((1, n)), sparse.eye_array(n)])
+        effect = -np.ones((NX, self._space.size))
         dynamics = sparse.hstack(
-            [sparse.eye_array(self._states) + previous, sparse.kron(inputs, -np.ones((NX, NU)))]
+            [sparse.eye_array(self._states) + previous, sparse.kron(inputs, effect)]
         )
-        next_contact = np.zeros((1 + NU, NX))
+        limited_inputs = np.vstack([np.zeros(self._space.size), self._space.limited])
+        next_contact = np.zeros((len(limited_inputs), NX))
         next_contact[0, 3] = 1.0
         limited = sparse.hstack(
             [
                 sparse.kron(sparse.eye_array(n, n + 1, k=1), next_contact),
-                sparse.kron(sparse.eye_array(n), np.eye(1 + NU, NU, k=-1)),
+                sparse.kron(sparse.eye_array(n), limited_inputs),
             ]
         )
         matrix = sparse.csc_matrix(sparse.vstack([dynamics, limited]))
@@ -155,12 +167,13 @@ class TrackingQP:
         return matrix
 
     def _entry_places(self) -> Array:
-        """Where in the matrix data the entries of a `Stages` stand, (N, ENTRIES)."""
+        """Where in the matrix data the entries of a `Stages` stand, (N, entries)."""
         step = np.arange(self.steps)[:, None]
         a_row, a_column = np.nonzero(A_PATTERN)
-        b_row, b_column = np.indices((NX, NU)).reshape(2, -1)
+        inputs = self._space.size
+        b_row, b_column = np.indices((NX, inputs)).reshape(2, -1)
         rows = NX * (step + 1) + np.concatenate([a_row, b_row])
-        columns = np.hstack([NX * step + a_column, self._states + NU * step + b_column])
+        columns = np.hstack([NX * step + a_column, self._states + inputs * step + b_column])
         return self._data_index(rows, columns)
 
     def _data_index(self, rows: Array, columns: Array) -> Array:

@@ -17,6 +17,7 @@ from push_mpc.surrogate import Grid, Table
 from push_sim.perturbation import Kind, Perturbation
 from push_sim.plant import Plant
 from push_sim.settings import profile
+from scipy import sparse
 
 Differences = Callable[[Callable[[Array], Array], Array, float], Array]
 
@@ -93,12 +94,25 @@ def table(tabulated: Callable[..., Table]) -> Table:
 
 
 @pytest.fixture
-def cell(table: Table) -> Iterator[Cell]:
+def make_cell(table: Table) -> Iterator[Callable[[MpcSettings], Cell]]:
+    """Makes a cell with some settings and frees its plant afterwards."""
+    made = []
+
+    def make(settings: MpcSettings) -> Cell:
+        made.append(Cell(settings, table))
+        return made[-1]
+
+    yield make
+    for cell in made:
+        cell.plant.close()
+
+
+@pytest.fixture
+def cell(make_cell: Callable[[MpcSettings], Cell]) -> Cell:
     """An armed cell on the 8-track."""
-    made = Cell(replace(mpc_settings('irb120'), good_poses=3), table)
+    made = make_cell(replace(mpc_settings('irb120'), good_poses=3))
     made.controller.arm()
-    yield made
-    made.plant.close()
+    return made
 
 
 @pytest.fixture
@@ -120,3 +134,71 @@ def central_differences() -> Differences:
         return np.stack(changes, axis=-1) / (2.0 * step)
 
     return derivative
+
+
+@pytest.fixture(scope='session')
+def unrolled() -> Callable[..., tuple[Array, Array]]:
+    """States after the first (4 N,) without input deviations, and by them (4 N, m N)."""
+
+    def unroll(
+        transition: Array, effect: Array, drift: Array, start: Array
+    ) -> tuple[Array, Array]:
+        steps, nx, nu = effect.shape
+        free, forced = np.zeros((steps, nx)), np.zeros((steps, nx, steps, nu))
+        state, by_input = start, np.zeros((nx, steps, nu))
+        for index in range(steps):
+            state = transition[index] @ state + drift[index]
+            by_input = np.tensordot(transition[index], by_input, axes=1)
+            by_input[:, index] += effect[index]
+            free[index], forced[index] = state, by_input
+        return free.ravel(), forced.reshape(nx * steps, nu * steps)
+
+    return unroll
+
+
+@pytest.fixture(scope='session')
+def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable[..., Array]:
+    """Optimal input deviations (N, m), states eliminated, by an interior-point method."""
+    clarabel = pytest.importorskip('clarabel', reason='clarabel is in requirements/dev.txt')
+
+    def solve(
+        state_weights: Array,
+        input_weights: Array,
+        limited: Array,
+        transition: Array,
+        effect: Array,
+        drift: Array,
+        limits: tuple[Array, Array],
+        start: Array,
+        opening: float,
+    ) -> Array:
+        free, forced = unrolled(transition, effect, drift, start)
+        steps, nx, nu = effect.shape
+        unit = np.sqrt(np.tile(input_weights, steps))
+        weights = np.tile(state_weights, steps)
+        forced /= unit
+        hessian = 2.0 * (forced.T * weights @ forced + np.eye(nu * steps))
+        gradient = 2.0 * forced.T @ (weights * free)
+        rows = np.vstack([forced[3::nx], np.kron(np.eye(steps), limited) / unit])
+        shift = np.concatenate([free[3::nx], np.zeros(len(limited) * steps)])
+        low, high = (
+            np.concatenate([limit[:, 0], limit[:, 1:].ravel()]) - shift for limit in limits
+        )
+        low[:steps] -= opening
+        high[:steps] += opening
+        sides = np.vstack([rows, -rows]), np.concatenate([high, -low])
+        bounded = np.isfinite(sides[1])
+        settings = clarabel.DefaultSettings()
+        settings.verbose = False
+        solution = clarabel.DefaultSolver(
+            sparse.triu(hessian, format='csc'),
+            gradient,
+            sparse.csc_matrix(sides[0][bounded]),
+            sides[1][bounded],
+            [clarabel.NonnegativeConeT(int(bounded.sum()))],
+            settings,
+        ).solve()
+        assert solution.status == clarabel.SolverStatus.Solved
+        return np.reshape(solution.x / unit, (steps, nu))
+
+    return solve

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from push_mpc.controller import Controller, Mode, horizon_stride
 from push_mpc.node_settings import mpc_settings
 from push_mpc.planning import planned
-from push_mpc.tracking_qp import Solution
+from push_mpc.steering import Move
 
 SETTINGS = mpc_settings('irb120')
 MODES = {Mode.TRACKING, Mode.DONE, Mode.STOPPED}
@@ -85,8 +85,8 @@ def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
 
 
 def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
-    nothing = Solution(np.full((35, 2), np.nan), 3, 7)
-    monkeypatch.setattr(tracking.controller._qp, 'solve', lambda *_problem: nothing)
+    nothing = Move(np.full(2, np.nan), 3, 7, usable=False)
+    monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
     tick = tracking.tick()
     assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)
     assert tracking.controller.stop_reason == 'the solver found no input (status 3)'

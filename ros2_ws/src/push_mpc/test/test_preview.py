@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from push_core.motion_cone import MotionCone
-from push_mpc.dynamics import rates
+from push_mpc.dynamics import TravelMotion, rates
 from push_mpc.preview import Preview
 
 STRIDE = 3
@@ -9,7 +9,7 @@ STRIDE = 3
 
 @pytest.fixture(scope='module')
 def preview(eight, slider) -> Preview:
-    return Preview.of(eight, MotionCone(slider), slider.tip_x, STRIDE)
+    return Preview.of(eight, TravelMotion(MotionCone(slider), slider.tip_x), STRIDE)
 
 
 def test_it_predicts_a_perturbed_motion_about_the_plan(eight, slider, preview) -> None:
@@ -35,7 +35,8 @@ def test_it_predicts_a_perturbed_motion_about_the_plan(eight, slider, preview) -
 
 def test_a_plan_that_fits_its_model_has_no_drift(eight, slider) -> None:
     # a point contact, for which the plan was made; a circle's samples are 3e-8 m off its tangent
-    drift = Preview.of(eight, MotionCone(slider), slider.p_x, STRIDE).drift
+    motion = TravelMotion(MotionCone(slider), slider.p_x)
+    drift = Preview.of(eight, motion, STRIDE).drift
     assert np.abs(drift[200:900]).max() < 1e-7
 
 

@@ -2,55 +2,14 @@
 
 import numpy as np
 import pytest
-from push_mpc.stages import NU, NX, Stages
+from push_mpc.stages import NX, InputSpace, Stages
 from push_mpc.tracking_qp import TrackingQP
 from push_sim.perturbation import Kind
-from scipy import sparse
 
-clarabel = pytest.importorskip('clarabel', reason='clarabel is in requirements/dev.txt')
-
+NU = 2
+SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 30.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
-
-
-def independent_inputs(transition, effect, drift, limits, start, opening):
-    """Optimal input deviations (N, 2) [m/s], states eliminated, by an interior-point method."""
-    free, forced = unrolled(transition, effect, drift, start)
-    steps = len(transition)
-    weights = np.tile(STATE_WEIGHTS, steps)
-    hessian = 2.0 * (forced.T * weights @ forced + np.diag(np.tile(INPUT_WEIGHTS, steps)))
-    gradient = 2.0 * forced.T @ (weights * free)
-    rows = np.vstack([forced[3::NX], np.eye(NU * steps)])
-    shift = np.concatenate([free[3::NX], np.zeros(NU * steps)])
-    low, high = (np.concatenate([limit[:, 0], limit[:, 1:].ravel()]) - shift for limit in limits)
-    low[:steps] -= opening
-    high[:steps] += opening
-    settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    solver = clarabel.DefaultSolver(
-        sparse.triu(hessian, format='csc'),
-        gradient,
-        sparse.csc_matrix(np.vstack([rows, -rows])),
-        np.concatenate([high, -low]),
-        [clarabel.NonnegativeConeT(2 * len(rows))],
-        settings,
-    )
-    solution = solver.solve()
-    assert solution.status == clarabel.SolverStatus.Solved
-    return np.reshape(solution.x, (steps, NU))
-
-
-def unrolled(transition, effect, drift, start):
-    """States after the first (4 N,) without input deviations, and by them (4 N, 2 N)."""
-    steps = len(transition)
-    free, forced = np.zeros((steps, NX)), np.zeros((steps, NX, steps, NU))
-    state, by_input = start, np.zeros((NX, steps, NU))
-    for index in range(steps):
-        state = transition[index] @ state + drift[index]
-        by_input = np.tensordot(transition[index], by_input, axes=1)
-        by_input[:, index] += effect[index]
-        free[index], forced[index] = state, by_input
-    return free.ravel(), forced.reshape(NX * steps, NU * steps)
 
 
 @pytest.fixture
@@ -60,9 +19,9 @@ def recorded(tracking, monkeypatch):
     prepare, solve = TrackingQP.prepare, TrackingQP.solve
     prepared = {}
 
-    def keep_problem(self, stages, window):
+    def keep_problem(self, stages, window, first):
         prepared[self] = stages.in_si_units(window)
-        prepare(self, stages, window)
+        prepare(self, stages, window, first)
 
     def keep_solution(self, start, opening):
         problems.append((*prepared[self], start.copy(), opening))
@@ -79,11 +38,13 @@ def recorded(tracking, monkeypatch):
     return problems, solutions
 
 
-def test_every_first_input_is_that_of_the_other_solver_to_1e_4(recorded) -> None:
+def test_every_first_input_is_that_of_the_other_solver_to_1e_4(
+    recorded, independent_inputs
+) -> None:
     problems, solutions = recorded
     at_a_bound = 0
     for problem, solution in list(zip(problems, solutions, strict=True))[::4]:
-        expected = independent_inputs(*problem)
+        expected = independent_inputs(STATE_WEIGHTS, INPUT_WEIGHTS, np.eye(NU), *problem)
         assert np.abs(solution.inputs[0] - expected[0]).max() < 1e-4
         low, high = (limit[:, 1:] for limit in problem[3])
         at_a_bound += np.any((expected < low + 1e-6) | (expected > high - 1e-6))
@@ -111,14 +72,15 @@ def problem():
 
 def solved(problem, times=1, opening=0.0):
     *stages, start = problem
-    qp = TrackingQP(len(problem[0]), STATE_WEIGHTS, INPUT_WEIGHTS)
+    qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS)
+    made = Stages.of(SPACE, *stages)
     for _ in range(times):
-        qp.prepare(Stages.of(*stages), np.arange(6))
+        qp.prepare(made, np.arange(6), made)
         solution = qp.solve(start, opening)
     return solution
 
 
-def test_without_bounds_it_is_the_least_squares_solution(problem) -> None:
+def test_without_bounds_it_is_the_least_squares_solution(problem, unrolled) -> None:
     free, forced = unrolled(*problem[:3], problem[4])
     root = np.sqrt(np.tile(STATE_WEIGHTS, 6))
     rows = np.vstack([root[:, None] * forced, np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6)))])
@@ -149,6 +111,6 @@ def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:
     *parts, _ = problem
-    again = Stages.of(*parts).in_si_units(np.array([3, 1]))
+    again = Stages.of(SPACE, *parts).in_si_units(np.array([3, 1]))
     for given, found in zip([*parts[:3], *parts[3]], [*again[:3], *again[3]], strict=True):
         np.testing.assert_allclose(found, given[[3, 1]], rtol=1e-14, atol=1e-18)

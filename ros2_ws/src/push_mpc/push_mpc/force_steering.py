@@ -1,0 +1,112 @@
+"""The analytical controller: the Family of Modes over [f_n, f_t, slip].
+
+Hogan and Rodriguez 2016, section 5. A contact sticks, slides left or slides right, and each mode
+has linear constraints of its own. Three programs are solved in every tick: the contact sticks all
+along, or slides one way in the first stage and sticks from then on. The cheapest one wins.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from push_core.frames import Array
+from push_core.limit_surface import LimitSurface
+from push_core.motion_cone import ContactMode
+from push_core.slider import Slider
+
+from push_mpc.contact_force import ContactForce
+from push_mpc.dynamics import TravelModel
+from push_mpc.nominal import Plan
+from push_mpc.preview import Preview
+from push_mpc.settings import ControllerSettings
+from push_mpc.stages import InputSpace, Stages
+from push_mpc.steering import Move
+from push_mpc.tracking_qp import Solution, TrackingQP
+
+FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
+_SOLVED = 1
+_SPEED = 1e-2  # [m/s]; the solver's unit of the slip, and of the speed that a force makes
+
+
+class ForceSteering:
+    """See `Steering`; the programs are those of `FAMILY`.
+
+    Attributes:
+        mode: in the first stage of the latest solution.
+    """
+
+    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
+        self._settings = settings
+        self._motion = ContactForce(slider)
+        self._plan = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
+        self._space = _space(slider)
+        self.mode = ContactMode.STICKING
+        weights = settings.force_weights
+        state_weights = [weights.position_x, weights.position_y, weights.heading, weights.contact]
+        self._programs = [
+            TrackingQP(
+                settings.horizon_steps,
+                self._space,
+                np.array(state_weights),
+                np.array([weights.normal, weights.tangential, weights.slip]),
+            )
+            for _ in FAMILY
+        ]
+
+    def stages(self, _model: TravelModel, stride: int) -> tuple[Stages, ...]:
+        """See `Steering.stages`; the limit surface is the slider's, whatever the model."""
+        preview = Preview.of(self._plan, self._motion, stride)
+        dynamics = (preview.transition, preview.effect, preview.drift)
+        return tuple(
+            Stages.of(self._space, *dynamics, self._limits(preview, mode)) for mode in FAMILY
+        )
+
+    def prepare(self, stages: tuple[Stages, ...], window: Array) -> None:
+        """See `Steering.prepare`."""
+        sticking = stages[0]
+        for program, first in zip(self._programs, stages, strict=True):
+            program.prepare(sticking, window, first)
+
+    def solve(self, state: Array, deviation: Array, time: float, opening: float) -> Move:
+        """See `Steering.solve`."""
+        solutions = [program.solve(deviation, opening) for program in self._programs]
+        self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
+        force = self._plan.at(time)[1] + best.inputs[0]
+        velocity = self._motion.tip_velocity(state[3], force)
+        iterations = sum(solution.iterations for solution in solutions)
+        return Move(velocity, best.status, iterations, best.usable)
+
+    def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
+        """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
+        slider = self._motion.slider
+        nominal = np.column_stack([preview.contact, preview.input @ _limited(slider).T])
+        strongest = self._settings.normal_speed_limit / LimitSurface.of(slider).weights[0]
+        slip = self._settings.tangential_speed_limit
+        # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
+        low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
+        high = np.array([0.5 * slider.side, strongest, 0.0, np.inf, 0.0])
+        if mode == ContactMode.SLIDING_LEFT:
+            low[2], high[4] = 0.0, slip
+        if mode == ContactMode.SLIDING_RIGHT:
+            high[3], low[4] = 0.0, -slip
+        return low - nominal, high - nominal
+
+
+def _limited(slider: Slider) -> Array:
+    """Combinations (4, 3) of the inputs: f_n, both sides of the friction cone, the slip."""
+    friction = slider.friction_pusher
+    return np.array([[1, 0, 0], [-friction, 1, 0], [friction, 1, 0], [0, 0, 1]], dtype=float)
+
+
+def _space(slider: Slider) -> InputSpace:
+    force = _SPEED / LimitSurface.of(slider).weights[0]
+    return InputSpace(
+        np.array([force, force, _SPEED]),
+        _limited(slider),
+        np.array([force, force, force, _SPEED]),
+    )
+
+
+def _rank(candidate: tuple[ContactMode, Solution]) -> tuple[bool, bool, float]:
+    """Sorts solutions: usable ones first, then solved ones, then by cost."""
+    solution = candidate[1]
+    return not solution.usable, solution.status != _SOLVED, solution.cost

@@ -1,0 +1,57 @@
+"""The data-driven controller: one program over the tip's velocity [v_n, v_t].
+
+Bauza, Hogan and Rodriguez 2018, section 4, for any model of the object's displacement.
+"""
+
+import numpy as np
+from push_core.frames import Array
+from push_core.slider import Slider
+
+from push_mpc.dynamics import TravelModel, TravelMotion
+from push_mpc.nominal import Plan
+from push_mpc.preview import Preview
+from push_mpc.settings import ControllerSettings
+from push_mpc.stages import InputSpace, Stages
+from push_mpc.steering import Move
+from push_mpc.tracking_qp import TrackingQP
+
+SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
+
+
+class VelocitySteering:
+    """See `Steering`."""
+
+    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
+        self._settings, self._slider, self._plan = settings, slider, plan
+        weights = settings.weights
+        self._qp = TrackingQP(
+            settings.horizon_steps,
+            SPACE,
+            np.array([weights.position, weights.position, weights.heading, weights.contact]),
+            np.array([weights.normal, weights.tangential]),
+        )
+
+    def stages(self, model: TravelModel, stride: int) -> tuple[Stages, ...]:
+        """See `Steering.stages`."""
+        motion = TravelMotion(model, self._slider.tip_x)
+        preview = Preview.of(self._plan, motion, stride)
+        limits = self._limits(preview)
+        return (Stages.of(SPACE, preview.transition, preview.effect, preview.drift, limits),)
+
+    def prepare(self, stages: tuple[Stages, ...], window: Array) -> None:
+        """See `Steering.prepare`."""
+        self._qp.prepare(stages[0], window, stages[0])
+
+    def solve(self, _state: Array, deviation: Array, time: float, opening: float) -> Move:
+        """See `Steering.solve`."""
+        solution = self._qp.solve(deviation, opening)
+        velocity = self._plan.at(time)[1] + solution.inputs[0]
+        return Move(velocity, solution.status, solution.iterations, solution.usable)
+
+    def _limits(self, preview: Preview) -> tuple[Array, Array]:
+        """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""
+        nominal = np.column_stack([preview.contact, preview.input])
+        half, tangential = 0.5 * self._slider.side, self._settings.tangential_speed_limit
+        low = np.array([-half, 0.0, -tangential])
+        high = np.array([half, self._settings.normal_speed_limit, tangential])
+        return low - nominal, high - nominal
