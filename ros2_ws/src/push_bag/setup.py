@@ -20,6 +20,7 @@ setup(
             'score = push_bag.score_command:main',
             'info = push_bag.info:main',
             'replay = push_bag.replay:main',
+            'recover = push_bag.recover:main',
         ],
     },
 )

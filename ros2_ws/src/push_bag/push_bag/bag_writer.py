@@ -1,8 +1,10 @@
 """Writes one run to an MCAP bag that rosbag2, Foxglove and the like read."""
 
+import json
 import time
+import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
@@ -10,11 +12,12 @@ from typing import IO, Any
 from mcap.writer import CompressionType, Writer
 from push_core.errors import InputError, RunError
 
-from push_bag.message_types import schema_text, type_hash
+from push_bag.message_types import Definition, installed_definition
 from push_bag.rosbag2_metadata import Span, TopicSummary, write_metadata
 
 CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
 FACTS_RECORD = 'run'
+TOPIC_RECORD = 'topic'  # a second copy, for whoever has to do without the first chunk
 LARGEST_SEQUENCE = 0xFFFFFFFF
 
 
@@ -25,6 +28,7 @@ class Channel:
     id: int
     type_name: str
     qos: str
+    definition: Definition
 
 
 class BagWriter:
@@ -70,13 +74,16 @@ class BagWriter:
         """Whether it takes messages: not closed, and no write has failed."""
         return self._stream is not None
 
-    def add_topic(self, name: str, type_name: str, qos_yaml: str) -> None:
+    def add_topic(
+        self, name: str, type_name: str, qos_yaml: str, definition: Definition | None = None
+    ) -> None:
         """Declares a topic before its first message.
 
         Args:
             name: full name, with the leading slash.
             type_name: in three parts, `geometry_msgs/msg/PoseStamped`.
             qos_yaml: the offered profiles as rosbag2's YAML list, see `qos_text`.
+            definition: of the type; None for the installed one.
 
         Raises:
             InputError: the type is not installed, or the topic is already there.
@@ -84,7 +91,9 @@ class BagWriter:
         """
         if name in self._channels:
             raise InputError(f'topic {name} is already in {self.path}')
-        self._attempt(lambda: self._register(name, type_name, qos_yaml))
+        definition = definition or installed_definition(type_name)
+        channel = Channel(0, type_name, qos_yaml, definition)
+        self._attempt(lambda: self._register(name, channel))
 
     def write(
         self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
@@ -156,15 +165,22 @@ class BagWriter:
             self._writer.add_attachment(now, now, name, 'application/octet-stream', data)
         self._writer.flush()  # type: ignore[no-untyped-call]
 
-    def _register(self, name: str, type_name: str, qos: str) -> None:
-        metadata = {'offered_qos_profiles': qos, 'topic_type_hash': type_hash(type_name)}
-        channel = self._writer.register_channel(name, 'cdr', self._schema(type_name), metadata)
-        self._channels[name] = Channel(channel, type_name, qos)
+    def _register(self, name: str, channel: Channel) -> None:
+        metadata = {
+            'offered_qos_profiles': channel.qos,
+            'topic_type_hash': channel.definition.type_hash,
+        }
+        number = self._writer.register_channel(name, 'cdr', self._schema(channel), metadata)
+        copy = json.dumps({'id': number, 'name': name, 'type': channel.type_name, **metadata})
+        checksum = str(zlib.crc32(copy.encode()))
+        self._writer.add_metadata(TOPIC_RECORD, {'topic': copy, 'crc32': checksum})
+        self._channels[name] = replace(channel, id=number)
         self.counts[name] = 0
 
-    def _schema(self, type_name: str) -> int:
+    def _schema(self, channel: Channel) -> int:
+        type_name = channel.type_name
         if type_name not in self._schemas:
-            text = schema_text(type_name).encode()
+            text = channel.definition.schema.encode()
             self._schemas[type_name] = self._writer.register_schema(type_name, 'ros2msg', text)
         return self._schemas[type_name]
 
@@ -183,7 +199,7 @@ class BagWriter:
                 name,
                 channel.type_name,
                 channel.qos,
-                type_hash(channel.type_name),
+                channel.definition.type_hash,
                 self.counts[name],
             )
             for name, channel in self._channels.items()

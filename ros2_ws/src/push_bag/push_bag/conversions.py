@@ -1,50 +1,76 @@
-"""Messages to arrays: the only place that knows the fields of the recorded messages."""
+"""Messages to arrays: the only place that knows the fields of the recorded messages.
+
+Topics that come at each tick are decoded by columns (`cdr_columns`), rare ones as messages.
+"""
 
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from push_core.errors import InputError
 from push_core.quaternion import quaternion_to_yaw
-from push_node.stamps import to_nanoseconds
+from push_node.stamps import NANOSECONDS, to_nanoseconds
 
-from push_bag.series import Disturbance, Model, Reference
+from push_bag.cdr_columns import Columns
+from push_bag.series import Disturbance, Floats, Model, Reference
+
+STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
+# fields of each topic that is read by columns
+POSE_FIELDS = (
+    *STAMP,
+    'pose.position.x',
+    'pose.position.y',
+    'pose.orientation.z',
+    'pose.orientation.w',
+)
+TWIST_FIELDS = (*STAMP, 'twist.linear.x', 'twist.linear.y')
+SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited')
+STATE_FIELDS = (
+    *STAMP,
+    'mode',
+    'stop_reason',
+    'reference_time',
+    'state',
+    'input',
+    'nominal_input',
+    *SOLVER_FIELDS,
+)
+
+
+def stamps(columns: Columns) -> NDArray[np.int64]:
+    """Stamps (n,) of the messages' headers [ns]."""
+    sec, nanosec = (columns[name].astype(np.int64) for name in STAMP)
+    return np.asarray(sec * NANOSECONDS + nanosec)
+
+
+def planar_poses(columns: Columns) -> Floats:
+    """X [m], y [m] and heading [rad] (n, 3) of poses that are turned about z only."""
+    turns = zip(columns['pose.orientation.z'], columns['pose.orientation.w'], strict=True)
+    yaw = [quaternion_to_yaw(z, w) for z, w in turns]
+    return np.column_stack([columns['pose.position.x'], columns['pose.position.y'], yaw])
+
+
+def positions(columns: Columns) -> Floats:
+    """X and y [m] (n, 2) of poses."""
+    return np.column_stack([columns['pose.position.x'], columns['pose.position.y']])
+
+
+def velocities(columns: Columns) -> Floats:
+    """v_x and v_y [m/s] (n, 2) of twists."""
+    return np.column_stack([columns['twist.linear.x'], columns['twist.linear.y']])
+
+
+def ticks(columns: Columns) -> Floats:
+    """The STATE_COLUMNS (n, 12) of controller states."""
+    parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
+    parts += [columns['input'], columns['nominal_input']]
+    parts += [columns[name] for name in SOLVER_FIELDS]
+    return np.column_stack(parts).astype(np.float64)
 
 
 def nanoseconds(message: Any) -> int:
     """The stamp of a message's header [ns]."""
     return to_nanoseconds(message.header.stamp)
-
-
-def planar_pose(message: Any) -> tuple[float, ...]:
-    """X [m], y [m] and heading [rad] of a PoseStamped that is turned about z only."""
-    position, turn = message.pose.position, message.pose.orientation
-    return position.x, position.y, quaternion_to_yaw(turn.z, turn.w)
-
-
-def position(message: Any) -> tuple[float, ...]:
-    """X and y [m] of a PoseStamped."""
-    return message.pose.position.x, message.pose.position.y
-
-
-def velocity(message: Any) -> tuple[float, ...]:
-    """v_x and v_y [m/s] of a TwistStamped."""
-    return message.twist.linear.x, message.twist.linear.y
-
-
-def tick(message: Any) -> tuple[float, ...]:
-    """The STATE_COLUMNS of a ControllerState."""
-    return (
-        message.mode,
-        message.reference_time,
-        message.state[3],
-        *message.input,
-        *message.nominal_input,
-        message.solve_ms,
-        message.tick_ms,
-        message.iterations,
-        message.solver_status,
-        message.limited,
-    )
 
 
 def reference(message: Any) -> Reference:

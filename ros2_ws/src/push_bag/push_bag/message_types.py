@@ -6,13 +6,29 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from push_core.errors import InputError
 
 SEPARATOR = '=' * 80
 INTEGERS = {f'{sign}int{bits}' for sign in ('', 'u') for bits in (8, 16, 32, 64)}
 PRIMITIVES = INTEGERS | {'bool', 'byte', 'char', 'float32', 'float64', 'string', 'wstring'}
+
+
+class Definition(NamedTuple):
+    """What a bag says of a type: its `ros2msg` schema and its REP-2011 hash, empty if unknown."""
+
+    schema: str
+    type_hash: str
+
+
+def installed_definition(type_name: str) -> Definition:
+    """The definition of an installed message type.
+
+    Raises:
+        InputError: it is not installed.
+    """
+    return Definition(schema_text(type_name), type_hash(type_name))
 
 
 @functools.cache

@@ -14,6 +14,8 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
+from push_bag.yaml_text import from_yaml, to_yaml
+
 POLICIES: dict[str, type[Enum]] = {
     'history': HistoryPolicy,
     'reliability': ReliabilityPolicy,
@@ -35,7 +37,7 @@ def qos_text(profile: QoSProfile) -> str:
         'depth': profile.depth,
         'avoid_ros_namespace_conventions': profile.avoid_ros_namespace_conventions,
     }
-    return str(yaml.safe_dump([words], sort_keys=False))
+    return to_yaml([words])
 
 
 def qos_profile(text: str) -> QoSProfile:
@@ -45,7 +47,7 @@ def qos_profile(text: str) -> QoSProfile:
         InputError: the text is not rosbag2's list of profiles.
     """
     try:
-        profiles = yaml.safe_load(text) or []
+        profiles = from_yaml(text) or []
         return _profile(profiles[0]) if profiles else QoSProfile(depth=UNKNOWN_DEPTH)
     except (yaml.YAMLError, KeyError, TypeError, ValueError):
         raise InputError(f'not a list of QoS profiles: {text[:60]!r}') from None

@@ -1,41 +1,25 @@
 """Streams a bag: whole, or cut short before its end."""
 
-import struct
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 
-import zstandard
-from mcap.exceptions import EndOfFile, McapError
-from mcap.records import Attachment, Channel, Chunk, Footer, McapRecord, Message, Metadata, Schema
-from mcap.stream_reader import StreamReader, breakup_chunk
+from mcap.opcode import Opcode
 from push_core.errors import InputError
 from rclpy.serialization import deserialize_message
 
-from push_bag.bag_writer import FACTS_RECORD
+from push_bag.bag_contents import BagContents
+from push_bag.mcap_stream import (
+    CutShortError,
+    DamagedError,
+    RawMessage,
+    chunk_data,
+    chunk_records,
+    message,
+    top_records,
+)
 from push_bag.message_types import message_class
-
-# what the library lets out where bytes are not what they should be
-CUT_SHORT = (EndOfFile, struct.error)
-DAMAGED = (McapError, ValueError, KeyError, zstandard.ZstdError, MemoryError)
-
-
-@dataclass(frozen=True)
-class Topic:
-    """A topic as the bag describes it.
-
-    Attributes:
-        name: full name.
-        type_name: in three parts.
-        qos: the offered profiles as rosbag2's YAML list.
-        type_hash: `RIHS01_…`, empty where the bag has none.
-    """
-
-    name: str
-    type_name: str
-    qos: str
-    type_hash: str
+from push_bag.topic import Topic
 
 
 class Record(NamedTuple):
@@ -67,10 +51,8 @@ class BagReader:
 
     Attributes:
         path: the MCAP file.
-        facts: of the run; complete once the first message was read.
-        attachments: whole files by name; complete once the first message was read.
-        topics: by name; complete once all records were read.
-        finished: whether the file came to its proper end; known once all records were read.
+        contents: what the bag says of itself; facts and attachments are complete once the first
+            message was read, topics and the end once all records were.
     """
 
     def __init__(self, path: Path) -> None:
@@ -82,13 +64,28 @@ class BagReader:
         Raises:
             InputError: there is no bag.
         """
-        self.path = _bag_file(path)
-        self.facts: dict[str, str] = {}
-        self.attachments: dict[str, bytes] = {}
-        self.topics: dict[str, Topic] = {}
-        self.finished = False
-        self._schemas: dict[int, str] = {}
-        self._channels: dict[int, Topic] = {}
+        self.path = bag_file(path)
+        self.contents = BagContents()
+
+    @property
+    def topics(self) -> dict[str, Topic]:
+        """The topics by name."""
+        return {topic.name: topic for topic in self.contents.topics.values()}
+
+    @property
+    def facts(self) -> dict[str, str]:
+        """The facts of the run."""
+        return self.contents.facts
+
+    @property
+    def attachments(self) -> dict[str, bytes]:
+        """Whole files that lie in the bag, by name."""
+        return self.contents.attachments
+
+    @property
+    def finished(self) -> bool:
+        """Whether the file came to its proper end."""
+        return self.contents.finished
 
     def records(self, names: Collection[str] | None = None) -> Iterator[Record]:
         """All messages in the order of the file, in bounded memory.
@@ -99,56 +96,49 @@ class BagReader:
         Raises:
             InputError: the file is empty, not a bag, or damaged before its end.
         """
+        topics = self.contents.topics
         with self.path.open('rb') as stream:
-            for record in self._unpacked(stream):
-                found = self._noted(record)
-                if found is not None and (names is None or found.topic.name in names):
-                    yield found
+            for raw in self._unpacked(stream):
+                topic = topics.get(raw.channel)
+                if topic is None:
+                    raise InputError(f'{self.path} is damaged: a message is of no known topic')
+                if names is None or topic.name in names:
+                    yield Record(topic, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
 
-    def _unpacked(self, stream: IO[bytes]) -> Iterator[McapRecord]:
-        size = self.path.stat().st_size
-        # a record cannot be longer than its file; a damaged length would be read into memory
-        reader = StreamReader(stream, emit_chunks=True, record_size_limit=size)
+    def _unpacked(self, stream: IO[bytes]) -> Iterator[RawMessage]:
         try:
-            for record in reader.records:
-                yield from breakup_chunk(record, True) if isinstance(record, Chunk) else (record,)
-        except CUT_SHORT:
-            if not self._channels:
+            for record in top_records(stream, self.path.stat().st_size):
+                if record.opcode == Opcode.CHUNK:
+                    yield from self._messages(record.body)
+                elif record.opcode == Opcode.MESSAGE:
+                    yield message(record.body)
+                else:
+                    self.contents.note(record)
+        except CutShortError:
+            if not self.contents.topics:
                 raise InputError(f'{self.path} ends before its first message') from None
-        except DAMAGED as error:
-            raise InputError(f'{self.path} is no bag or is damaged: {error}') from None
+        except DamagedError as error:
+            raise InputError(
+                f'{self.path} is no bag or is damaged: {error}; `push_bag recover` saves the rest'
+            ) from None
 
-    def _noted(self, record: McapRecord) -> Record | None:
-        """Remembers what a record says of the bag; gives back the messages."""
-        if isinstance(record, Message):
-            topic = self._channels[record.channel_id]
-            return Record(
-                topic, record.data, record.log_time, record.publish_time, record.sequence
-            )
-        if isinstance(record, Schema):
-            self._schemas[record.id] = record.name
-        elif isinstance(record, Channel):
-            self._note_channel(record)
-        elif isinstance(record, Metadata) and record.name == FACTS_RECORD:
-            self.facts = dict(record.metadata)
-        elif isinstance(record, Attachment):
-            self.attachments[record.name] = record.data
-        elif isinstance(record, Footer):
-            self.finished = True
-        return None
-
-    def _note_channel(self, channel: Channel) -> None:
-        topic = Topic(
-            channel.topic,
-            self._schemas.get(channel.schema_id, ''),
-            channel.metadata.get('offered_qos_profiles', ''),
-            channel.metadata.get('topic_type_hash', ''),
-        )
-        self._channels[channel.id] = topic
-        self.topics[topic.name] = topic
+    def _messages(self, chunk: bytes) -> Iterator[RawMessage]:
+        for record in chunk_records(chunk_data(chunk)):
+            if isinstance(record, RawMessage):
+                yield record
+            else:
+                self.contents.note(record)
 
 
-def _bag_file(path: Path) -> Path:
+def bag_file(path: Path) -> Path:
+    """The MCAP file of a run.
+
+    Args:
+        path: run folder or MCAP file.
+
+    Raises:
+        InputError: there is none, or more than one.
+    """
     if path.is_file():
         return path
     if not path.is_dir():

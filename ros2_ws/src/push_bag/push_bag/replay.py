@@ -16,7 +16,8 @@ from rclpy.signals import SignalHandlerOptions
 
 from push_bag.message_types import message_class
 from push_bag.qos_text import qos_profile
-from push_bag.reader import BagReader, Record, Topic
+from push_bag.reader import BagReader, Record
+from push_bag.topic import Topic
 
 REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
 DISCOVERY_TIME = 0.5  # [s] for subscribers to find the publishers before the first message

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
 from push_core.atomic_file import write_atomically
+
+from push_bag.yaml_text import from_yaml, to_yaml
 
 VERSION = 9
 FILE_NAME = 'metadata.yaml'
@@ -60,7 +61,7 @@ def write_metadata(
         InputError: the file cannot be written.
     """
     information = _information(bag_name, topics, span) | {'custom_data': dict(facts) or None}
-    text = yaml.safe_dump({'rosbag2_bagfile_information': information}, sort_keys=False)
+    text = to_yaml({'rosbag2_bagfile_information': information})
     write_atomically(folder / FILE_NAME, text.encode())
 
 
@@ -93,7 +94,7 @@ def _topic(topic: TopicSummary) -> dict[str, Any]:
             'name': topic.name,
             'type': topic.type_name,
             'serialization_format': 'cdr',
-            'offered_qos_profiles': yaml.safe_load(topic.qos) or [],
+            'offered_qos_profiles': from_yaml(topic.qos) or [],
             'type_description_hash': topic.type_hash,
         },
         'message_count': topic.count,

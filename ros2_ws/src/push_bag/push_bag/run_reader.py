@@ -2,24 +2,26 @@
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 from push_core.errors import InputError
 
+from push_bag.cdr_columns import Columns
 from push_bag.cell_topics import short_name
 from push_bag.conversions import (
+    POSE_FIELDS,
+    STATE_FIELDS,
+    TWIST_FIELDS,
     disturbance,
     model,
-    nanoseconds,
-    planar_pose,
-    position,
+    planar_poses,
+    positions,
     reference,
-    tick,
-    velocity,
+    ticks,
+    velocities,
 )
 from push_bag.reader import BagReader, Record
-from push_bag.series import STATE_COLUMNS, Disturbance, Model, Reference, RunSeries, Stamped
+from push_bag.series import STATE_COLUMNS, Disturbance, Floats, Model, Reference, RunSeries
+from push_bag.topic_table import TopicTable
 from push_bag.traffic import Traffic
 
 
@@ -46,16 +48,19 @@ class _Rows:
 
     def __init__(self) -> None:
         self.traffic: dict[str, Traffic] = {}
-        self._rows: dict[str, list[tuple[int, int, tuple[float, ...]]]] = {}
+        self._tables = {
+            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
+            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
+            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
+            'controller_state': TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
+        }
+        self._topics: dict[str, tuple[Traffic, Callable[[Record], None] | None]] = {}
         self._stop_reason = ''
         self._reference: Reference | None = None
         self._model: Model | None = None
         self._disturbances: list[Disturbance] = []
         self._readers: Mapping[str, Callable[[Record], None]] = {
-            'object_pose': lambda record: self._add_row(record, planar_pose),
-            'pusher_pose': lambda record: self._add_row(record, position),
-            'pusher_velocity_cmd': lambda record: self._add_row(record, velocity),
-            'controller_state': self._add_state,
+            **{name: table.add for name, table in self._tables.items()},
             'nominal_trajectory': self._set_reference,
             'model_info': self._set_model,
             'perturbation': self._add_disturbance,
@@ -63,47 +68,43 @@ class _Rows:
 
     def add(self, record: Record) -> None:
         """Counts a record and keeps what the series need of it."""
-        seen = self.traffic.setdefault(record.topic.name, Traffic())
+        known = self._topics.get(record.topic.name)
+        if known is None:
+            known = self._topics[record.topic.name] = self._new_topic(record.topic.name)
+        seen, read = known
         seen.saw(record.sequence, record.log_ns)
-        read = self._readers.get(short_name(record.topic.name))
         if read is not None:
             read(record)
 
     def series(self, reader: BagReader) -> RunSeries:
-        """All that was collected."""
+        """All that was collected.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
+        tables = {name: table.stamped() for name, table in self._tables.items()}
         return RunSeries(
             facts=reader.facts,
             finished=reader.finished,
             traffic={name: self.traffic.get(name, Traffic()) for name in reader.topics},
-            object=self._stamped('object_pose', 3),
-            pusher=self._stamped('pusher_pose', 2),
-            commands=self._stamped('pusher_velocity_cmd', 2),
-            states=self._stamped('controller_state', len(STATE_COLUMNS)),
+            object=tables['object_pose'],
+            pusher=tables['pusher_pose'],
+            commands=tables['pusher_velocity_cmd'],
+            states=tables['controller_state'],
             stop_reason=self._stop_reason,
             reference=self._reference,
             model=self._model,
             disturbances=tuple(self._disturbances),
         )
 
-    def _stamped(self, name: str, width: int) -> Stamped:
-        rows = self._rows.get(name, [])
-        stamp = np.array([row[0] for row in rows], np.int64)
-        published = np.array([row[1] for row in rows], np.int64)
-        values = np.array([row[2] for row in rows], np.float64).reshape(-1, width)
-        _, first = np.unique(stamp, return_index=True)
-        return Stamped(stamp[first], published[first], values[first])
+    def _new_topic(self, name: str) -> tuple[Traffic, Callable[[Record], None] | None]:
+        seen = self.traffic[name] = Traffic()
+        return seen, self._readers.get(short_name(name))
 
-    def _add_row(self, record: Record, values: Callable[[Any], tuple[float, ...]]) -> None:
-        message = record.message()
-        row = (nanoseconds(message), record.publish_ns, values(message))
-        self._rows.setdefault(short_name(record.topic.name), []).append(row)
-
-    def _add_state(self, record: Record) -> None:
-        self._add_row(record, self._state_values)
-
-    def _state_values(self, message: Any) -> tuple[float, ...]:
-        self._stop_reason = message.stop_reason or self._stop_reason
-        return tick(message)
+    def _states(self, columns: Columns) -> Floats:
+        reasons = [reason for reason in columns['stop_reason'] if reason]
+        self._stop_reason = reasons[-1] if reasons else self._stop_reason
+        return ticks(columns)
 
     def _set_reference(self, record: Record) -> None:
         self._reference = reference(record.message())

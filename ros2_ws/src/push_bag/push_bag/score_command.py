@@ -1,33 +1,73 @@
-"""`push_bag score RUN`: the score of a run as a table, as JSON, as a report."""
+"""`push_bag score RUN…`: the score of runs as a table, as JSON, as a report, held to bounds."""
 
 import argparse
+import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
+from push_core.errors import InputError
+from tqdm import tqdm
 
+from push_bag.figures import bound, check_bounds
 from push_bag.run_reader import read_run
-from push_bag.score import score_json, score_series
+from push_bag.runs_table import comparison_table, runs_object, runs_table
+from push_bag.score import score_json, score_run, score_series
 from push_bag.score_table import score_table
+
+EPILOG = """
+examples:
+  ros2 run push_bag score runs/RUN
+  ros2 run push_bag score runs/RUN --html report.html
+  ros2 run push_bag score runs/*                      a line for each run, their mean and spread
+  ros2 run push_bag score runs/A runs/B --compare     figure by figure, with the difference
+  ros2 run push_bag score runs/RUN --fail-above mean=3.0 --fail-above solve_ms.p99=2
+
+A figure is named by its path in the JSON; mean, rms, p95 and max alone are those of the tracking
+error; `lost` is the number of lost messages. What each means: docs/scoring.md.
+Exit status: 0 scored, 1 a figure is above its bound, 2 the command or a bag was wrong.
+"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Scores a run."""
+    """Scores runs."""
     return run_command(_parser(), _work, argv)
 
 
 def _parser() -> Parser:
-    parser = Parser('Scores a recorded run.')
-    parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    parser = Parser('Scores recorded runs.', EPILOG)
+    parser.add_argument(
+        'runs', type=Path, nargs='+', metavar='RUN', help='run folder or MCAP file'
+    )
     parser.add_argument('--json', action='store_true', help='print one JSON object instead')
-    parser.add_argument('--html', type=Path, metavar='FILE', help='also write a report')
+    parser.add_argument('--html', type=Path, metavar='FILE', help='also write a report (one run)')
+    parser.add_argument('--compare', action='store_true', help='two runs, figure by figure')
+    parser.add_argument(
+        '--fail-above',
+        action='append',
+        default=[],
+        metavar='FIGURE=VALUE',
+        help='end with status 1 if a figure of a run is higher; repeatable',
+    )
     return parser
 
 
 def _work(arguments: argparse.Namespace) -> None:
-    run = read_run(arguments.run)
+    bounds = [bound(text) for text in arguments.fail_above]
+    if arguments.compare and len(arguments.runs) != 2:
+        raise InputError('--compare takes two runs')
+    if len(arguments.runs) == 1:
+        scores = [(str(arguments.runs[0]), _one(arguments))]
+    else:
+        scores = _several(arguments)
+    check_bounds(scores, bounds)
+
+
+def _one(arguments: argparse.Namespace) -> dict[str, Any]:
+    run = read_run(arguments.runs[0])
     score = score_series(run)
     if arguments.html is not None:
         # plotly takes a second to import: only who asks for a report waits for it
@@ -35,6 +75,19 @@ def _work(arguments: argparse.Namespace) -> None:
 
         write_atomically(arguments.html, report_html([(run, score)]).encode())
     sys.stdout.write(score_json(score) if arguments.json else score_table(score))
+    return score
+
+
+def _several(arguments: argparse.Namespace) -> list[tuple[str, dict[str, Any]]]:
+    if arguments.html is not None:
+        raise InputError('--html takes one run')
+    runs = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
+    scores = [(str(run), score_run(run)) for run in runs]
+    if arguments.json:
+        sys.stdout.write(json.dumps(runs_object(scores), indent=2, allow_nan=False) + '\n')
+    else:
+        sys.stdout.write(comparison_table(scores) if arguments.compare else runs_table(scores))
+    return scores
 
 
 if __name__ == '__main__':

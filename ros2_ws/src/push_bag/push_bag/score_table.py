@@ -38,6 +38,11 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
     ]
 
 
+def messages_lost(score: Mapping[str, Any]) -> int:
+    """Messages lost on all topics together."""
+    return sum(counts['lost'] or 0 for counts in score['messages'].values())
+
+
 def messages_line(score: Mapping[str, Any]) -> str:
     """One line such as `0 of 14130 messages lost`, naming the topics that lost some."""
     topics = score['messages']

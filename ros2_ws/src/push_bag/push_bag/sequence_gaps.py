@@ -13,6 +13,7 @@ import bisect
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+NOTHING = -2  # the last number of no run, and not before one
 NEAREST = 8  # runs looked at for the one that goes on; more than publishers share a topic
 
 
@@ -31,15 +32,17 @@ class SequenceGaps:
 
     def __init__(self) -> None:
         self._runs: list[Run] = []
-        self._by_last: dict[int, list[Run]] = {}
+        self._by_last: dict[int, list[Run]] = {}  # all but the current one
+        self._current = Run(0, NOTHING, 0, 0)
         self._seen = 0
 
     def saw(self, sequence: int) -> None:
         """Notes one message by its publisher's number of it."""
         self._seen += 1
-        run = self._continued(sequence)
-        run.last, run.died = sequence, self._seen
-        self._by_last.setdefault(sequence, []).append(run)
+        current = self._current
+        if sequence != current.last + 1:
+            current = self._other(sequence)
+        current.last, current.died = sequence, self._seen
 
     @property
     def lost(self) -> int:
@@ -63,6 +66,13 @@ class SequenceGaps:
             for after in by_first[above : above + NEAREST]:
                 if self._runs[after].born > run.died:
                     yield self._runs[after].first - run.last - 1, before, after
+
+    def _other(self, sequence: int) -> Run:
+        """Makes another run the current one: that which this number goes on with, or a new one."""
+        if self._runs:
+            self._by_last.setdefault(self._current.last, []).append(self._current)
+        self._current = self._continued(sequence)
+        return self._current
 
     def _continued(self, sequence: int) -> Run:
         """The run that this number goes on with; a new one where there is none."""

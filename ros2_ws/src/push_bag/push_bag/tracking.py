@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_msgs.msg import ControllerState
 
+from push_bag.segments import Segments
 from push_bag.series import Floats, Nanoseconds, Reference, RunSeries
 
 NEAR = 0.06  # [m] of path to either side in which the nearest point is looked for
@@ -98,10 +99,10 @@ def cross_track(reference: Reference, points: Floats, time: Floats) -> Floats:
     period = reference.duration / (reference.time.size - 1)
     here = np.clip((time / period).astype(np.intp), 0, reference.time.size - 2)
     reach = int(np.ceil(NEAR / max(reference.speed * period, 1e-6)))
+    segments = Segments.of(reference.pose[:, :2])
     nearest = np.full(time.size, np.inf)
     for shift in range(-min(reach, reference.time.size), min(reach, reference.time.size) + 1):
-        segment = np.clip(here + shift, 0, reference.time.size - 2)
-        signed = _distance_to_segments(reference.pose[:, :2], segment, points)
+        signed = segments.distance(np.clip(here + shift, 0, reference.time.size - 2), points)
         nearest = np.where(np.abs(signed) < np.abs(nearest), signed, nearest)
     return nearest
 
@@ -110,19 +111,3 @@ def wrapped(angle: Floats) -> Floats:
     """The same angles [rad] in [-pi, pi)."""
     turned: Floats = (angle + np.pi) % (2.0 * np.pi) - np.pi
     return turned
-
-
-def _distance_to_segments(path: Floats, segment: NDArray[np.intp], points: Floats) -> Floats:
-    """Distance (n,) of points (n, 2) to segments (n,) of a path (m, 2), positive on the left."""
-    start = path[segment]
-    along = path[segment + 1] - start
-    offset = points - start
-    length_2 = np.maximum(np.sum(along**2, axis=1), 1e-30)
-    # the ends go on straight, so that to be early or late there is no error across
-    low = np.where(segment == 0, -np.inf, 0.0)
-    high = np.where(segment == len(path) - 2, np.inf, 1.0)
-    share = np.clip(np.sum(offset * along, axis=1) / length_2, low, high)
-    away = offset - share[:, None] * along
-    left = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
-    signed: Floats = np.where(left >= 0.0, 1.0, -1.0) * np.hypot(away[:, 0], away[:, 1])
-    return signed

@@ -20,6 +20,7 @@ WALL_0 = 1_700_000_000_000_000_000
 ARMED_TICKS = 20
 LEAD_TICKS = 11  # in TRACKING before the reference starts
 DONE_TICKS = 10
+FLUSH_TICKS = 25  # as the recorder does every 0.25 s
 CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name == 'perturbation'}
 
 
@@ -113,6 +114,8 @@ class Recorder:
                 'pusher_velocity_cmd', tick, self.message('pusher_velocity_cmd', tick), delay
             )
         self.write('controller_state', tick, self.state(tick, time), 2_000_000)
+        if tick % FLUSH_TICKS == 0:
+            self.bag.flush()
         if synthetic.perturbed_at is not None and abs(time - synthetic.perturbed_at) < 1e-6:
             kick = self.message('perturbation', tick)
             kick.magnitude = 0.03

@@ -1,10 +1,13 @@
 """A bag that is missing, cut short or garbage gives one line, or what is left of it."""
 
 import random
+from functools import partial
 
 import pytest
 from push_bag import info, score_command
 from push_bag.reader import BagReader
+from push_bag.recover import recover
+from push_bag.run_reader import read_run
 from push_core.errors import InputError
 
 
@@ -52,16 +55,46 @@ def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, caps
     assert capsys.readouterr().out.splitlines()[0].split() == ['completed', 'no']
 
 
-def test_damage_anywhere_gives_messages_or_an_input_error(tmp_path, content):
-    """100 files with 8 random bytes changed; nothing but an InputError may come out."""
+def cut(whole, chance):
+    return whole[: chance.randrange(len(whole))]
+
+
+def flipped(whole, chance):
+    for _ in range(chance.choice((1, 8, 64))):
+        whole[chance.randrange(len(whole))] ^= 1 << chance.randrange(8)
+    return whole
+
+
+def swapped(whole, chance):
+    for _ in range(4):
+        here, there = (chance.randrange(len(whole) - 100) for _ in range(2))
+        size = chance.randrange(1, 100)
+        whole[here : here + size], whole[there : there + size] = (
+            whole[there : there + size],
+            whole[here : here + size],
+        )
+    return whole
+
+
+def taken_out(whole, chance):
+    at = chance.randrange(len(whole))
+    del whole[at : at + chance.randrange(1, 2000)]
+    return whole
+
+
+@pytest.mark.parametrize('spoil', [cut, flipped, swapped, taken_out])
+def test_damage_of_any_kind_gives_messages_or_an_input_error(tmp_path, content, spoil):
+    """Nothing but an InputError may come out, of reading and of recovering."""
     chance = random.Random(0)
     path = tmp_path / 'damaged.mcap'
-    for _ in range(100):
-        damaged = bytearray(content)
-        for _ in range(8):
-            damaged[chance.randrange(len(damaged))] = chance.randrange(256)
-        path.write_bytes(damaged)
-        try:
-            list(BagReader(path).records())
-        except InputError:
-            continue
+    for number in range(10):
+        path.write_bytes(spoil(bytearray(content), chance))
+        for work in (read_run, bag_info, partial(recover, folder=tmp_path / str(number))):
+            try:
+                work(path)
+            except InputError:
+                continue
+
+
+def bag_info(path):
+    return info.bag_text(BagReader(path))

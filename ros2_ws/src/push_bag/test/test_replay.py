@@ -7,8 +7,9 @@ import rclpy
 from push_bag.cell_topics import CELL_TOPICS
 from push_bag.qos_text import qos_profile, qos_text
 from push_bag.raw_subscription import RawSubscription
-from push_bag.reader import BagReader, Record, Topic
+from push_bag.reader import BagReader, Record
 from push_bag.replay import Publishers, in_order, main, play
+from push_bag.topic import Topic
 from push_core.errors import InputError
 from rclpy.qos import HistoryPolicy, QoSProfile
 

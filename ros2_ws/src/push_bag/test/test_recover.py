@@ -1,0 +1,109 @@
+"""All whole chunks of a broken bag are recovered, and what is missing is said."""
+
+import random
+
+import pytest
+from push_bag import recover as command
+from push_bag.mcap_stream import chunk_data, chunk_records, top_records
+from push_bag.reader import BagReader
+from push_bag.recover import recover
+from push_core.errors import InputError
+
+
+@pytest.fixture(scope='module')
+def content(perfect):
+    return BagReader(perfect).path.read_bytes()
+
+
+@pytest.fixture(scope='module')
+def chunks(perfect):
+    """Where each chunk of the bag lies, and how many messages it has."""
+    path = BagReader(perfect).path
+    found = []
+    with path.open('rb') as stream:
+        for record in top_records(stream, path.stat().st_size):
+            if record.opcode == 6:
+                count = sum(1 for each in chunk_records(chunk_data(record.body)) if len(each) == 5)
+                found.append((stream.tell() - len(record.body) - 9, stream.tell(), count))
+    return found
+
+
+@pytest.fixture
+def broken(tmp_path):
+    def write(data):
+        path = tmp_path / 'broken.mcap'
+        path.write_bytes(data)
+        return path
+
+    return write
+
+
+def messages(path):
+    return [(each.topic, *each[1:]) for each in BagReader(path).records()]
+
+
+def test_a_sound_bag_is_recovered_message_by_message(perfect, tmp_path):
+    found = recover(perfect, tmp_path / 'out')
+    assert messages(tmp_path / 'out') == messages(perfect)
+    ours, theirs = BagReader(perfect), BagReader(tmp_path / 'out')
+    list(ours.records()), list(theirs.records())
+    assert (theirs.facts, theirs.attachments) == (ours.facts, ours.attachments)
+    assert theirs.finished
+    assert (found.missing, found.missing_ns, found.damaged_bytes) == (0, 0, 0)
+
+
+def test_a_cut_bag_keeps_every_chunk_before_the_cut(chunks, content, broken, tmp_path):
+    for number, end in enumerate(chance_cuts(len(content))):
+        whole = sum(count for _, last, count in chunks if last <= end)
+        if not whole:
+            continue
+        recover(broken(content[:end]), tmp_path / str(number))
+        assert len(messages(tmp_path / str(number))) == whole
+
+
+def chance_cuts(size):
+    chance = random.Random(0)
+    return [chance.randrange(1000, size) for _ in range(8)]
+
+
+def test_damage_loses_the_chunks_that_it_touches_and_no_other(chunks, content, broken, tmp_path):
+    chance = random.Random(1)
+    for number in range(8):
+        at, length = chance.randrange(8, len(content)), chance.randrange(1, 2000)
+        spoilt = content[:at] + chance.randbytes(length) + content[at + length :]
+        path = broken(spoilt[: len(content)])
+        whole = sum(n for first, last, n in chunks if last <= at or first >= at + length)
+        recover(path, tmp_path / str(number))
+        assert len(messages(tmp_path / str(number))) == whole
+
+
+def test_bytes_that_were_taken_out_shift_the_rest_and_lose_no_more(
+    chunks, content, broken, tmp_path
+):
+    first, last, count = chunks[1]
+    found = recover(broken(content[: first + 5] + content[last - 7 :]), tmp_path / 'out')
+    assert found.messages == sum(each for _, _, each in chunks) - count
+    assert found.missing == count
+    assert 0.2e9 < found.missing_ns < 0.3e9
+
+
+def test_without_the_end_missing_messages_are_told_by_their_numbers(
+    chunks, content, broken, tmp_path
+):
+    first, last, count = chunks[1]
+    end = chunks[3][1]
+    found = recover(broken(content[:first] + content[last:end]), tmp_path / 'out')
+    assert found.missing == count
+    assert 'cut short' in found.text()
+
+
+def test_what_holds_nothing_is_one_line_and_makes_no_folder(broken, tmp_path, capsys):
+    for data in (b'', b'no bag at all' * 50):
+        assert command.main([str(broken(data)), '-o', str(tmp_path / 'out')]) == 2
+        assert capsys.readouterr().err.count('\n') == 1
+        assert not (tmp_path / 'out').exists()
+
+
+def test_an_existing_folder_is_not_touched(perfect, tmp_path):
+    with pytest.raises(InputError, match='exists already'):
+        recover(perfect, tmp_path)

@@ -1,0 +1,65 @@
+"""Runs side by side: a line for each, mean and spread, differences, bounds."""
+
+import json
+
+import numpy as np
+import pytest
+from push_bag.score_command import main
+
+
+@pytest.fixture
+def runs(record):
+    """Three runs that are 1, 2 and 4 mm beside their reference."""
+
+    def off(shift):
+        return lambda pose, _time: pose + np.array([shift, 0.0, 0.0])
+
+    return [str(record(displaced=off(shift), duration=0.4)) for shift in (1e-3, 2e-3, 4e-3)]
+
+
+def test_several_runs_have_a_mean_and_a_sample_standard_deviation(runs, capsys):
+    assert main([*runs, '--json']) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [run['run'] for run in found['runs']] == runs
+    assert found['mean']['tracking_error_mm.mean'] == pytest.approx(7 / 3)
+    assert found['spread']['tracking_error_mm.mean'] == pytest.approx(np.std([1, 2, 4], ddof=1))
+
+
+def test_the_table_has_a_line_for_each_run_and_two_for_all(runs, capsys):
+    assert main(runs) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ['run', *runs, 'mean', 'spread']
+    assert lines[-2].split()[1:5] == ['3', 'of', '3', '2.33']
+
+
+def test_two_runs_are_compared_figure_by_figure(runs, capsys):
+    assert main([*runs[1:], '--compare']) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert ['tracking_error_mm.mean', '2', '4', '2'] in lines
+
+
+def test_a_figure_above_its_bound_is_one_line_and_status_1(runs, capsys):
+    assert main([*runs, '--fail-above', 'mean=2.5', '--fail-above', 'lost=0']) == 1
+    captured = capsys.readouterr()
+    assert captured.err.count('\n') == 1
+    assert f'tracking_error_mm.mean is 4 in {runs[2]}, above 2.5' in captured.err
+    assert main([runs[0], '--fail-above', 'mean=1.1']) == 0
+
+
+def test_a_figure_that_a_run_has_not_is_above_every_bound(record, capsys):
+    run = str(record(facts={'mode': 'inprocess'}, duration=0.4))
+    assert main([run, '--fail-above', 'pose_to_command_ms.p50=1000']) == 1
+
+
+@pytest.mark.parametrize(
+    'words',
+    [['--fail-above', 'mean'], ['--fail-above', 'nonsense=1'], ['--fail-above', 'track=1']],
+)
+def test_a_wrong_bound_is_one_line_and_status_2(runs, capsys, words):
+    assert main([runs[0], *words]) == 2
+    assert capsys.readouterr().err.count('\n') == 1
+
+
+def test_what_needs_another_number_of_runs_is_refused(runs, tmp_path):
+    assert main([*runs, '--compare']) == 2
+    assert main([*runs, '--html', str(tmp_path / 'report.html')]) == 2
