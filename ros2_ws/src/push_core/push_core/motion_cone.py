@@ -10,6 +10,7 @@ from enum import IntEnum
 
 import numpy as np
 
+from push_core import point_contact
 from push_core.frames import Array
 from push_core.slider import Slider
 
@@ -39,8 +40,9 @@ class MotionCone:
         Scaled such that the translation equals the force; the true scale follows from the speed.
         """
         normal, tangential = np.asarray(force).T
-        moment = -np.asarray(p_y) * normal + self.slider.p_x * tangential
-        return np.stack([normal, tangential, moment / self.slider.support_radius**2], axis=-1)
+        p_x, c_squared = self.slider.p_x, self.slider.support_radius**2
+        twist = point_contact.twist_of_force(p_x, np.asarray(p_y), c_squared, normal, tangential)
+        return np.stack(twist, axis=-1)
 
     def force_of_velocity(self, p_y: Array, beta: Array) -> Array:
         """Velocity form: contact force (n, 2) for unit pushes, in the scale of the force form."""
@@ -50,12 +52,8 @@ class MotionCone:
     def mode(self, p_y: Array, beta: Array) -> Array:
         """Contact mode (n,) of unit pushes, values of `ContactMode`."""
         p_y, beta = np.asarray(p_y, dtype=float), np.asarray(beta, dtype=float)
-        v_n, v_t = np.sin(beta), np.cos(beta)
-        left, right = (self._edge(p_y, sign) for sign in (1.0, -1.0))
-        # an edge that leans backwards, with much friction, has no push into the face beyond it
-        slides_left = (left[0] > 0.0) & (v_t * left[0] > left[1] * v_n)
-        slides_right = (right[0] > 0.0) & (v_t * right[0] < right[1] * v_n)
-        return np.subtract(slides_left, slides_right, dtype=float)
+        matrix, friction = self._mobility(p_y), self.slider.friction_pusher
+        return np.asarray(point_contact.slip_sign(matrix, friction, np.sin(beta), np.cos(beta)))
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Displacement rates and their Jacobian.
@@ -77,16 +75,8 @@ class MotionCone:
         jacobian[:, 2, 0] -= force[:, 0] / self.slider.support_radius**2
         return mean, jacobian
 
-    def _mobility(self, p_y: Array) -> tuple[Array, Array, float]:
-        """Entries nn, nt, tt of M = J L J^T, which turns a contact force into its velocity."""
-        p_x, c_squared = self.slider.p_x, self.slider.support_radius**2
-        return 1.0 + p_y**2 / c_squared, -p_x * p_y / c_squared, 1.0 + p_x**2 / c_squared
-
-    def _edge(self, p_y: Array, sign: Array | float) -> tuple[Array, Array]:
-        """Velocity [normal, tangential] along the motion cone's edge of the given side."""
-        nn, nt, tt = self._mobility(p_y)
-        friction = sign * self.slider.friction_pusher
-        return nn + friction * nt, nt + friction * tt
+    def _mobility(self, p_y: Array) -> point_contact.Mobility:
+        return point_contact.mobility(self.slider.p_x, p_y, self.slider.support_radius**2)
 
     def _solve(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Contact force (n, 2) and its derivatives (n, 2, 2) by [p_y, beta]."""
@@ -99,14 +89,11 @@ class MotionCone:
 
     def _sticking(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Force M^-1 v and its derivative, M df = dv - dM f."""
-        nn, nt, tt = self._mobility(p_y)
-        determinant = nn * tt - nt**2
+        matrix = self._mobility(p_y)
         v_n, v_t = np.sin(beta), np.cos(beta)
 
         def solve(normal: Array, tangential: Array) -> Array:
-            f_n = (tt * normal - nt * tangential) / determinant
-            f_t = (nn * tangential - nt * normal) / determinant
-            return np.stack([f_n, f_t], axis=-1)
+            return np.stack(point_contact.sticking_force(matrix, normal, tangential), axis=-1)
 
         force = solve(v_n, v_t)
         c_squared, p_x = self.slider.support_radius**2, self.slider.p_x
@@ -116,8 +103,8 @@ class MotionCone:
 
     def _sliding(self, p_y: Array, beta: Array, mode: Array) -> tuple[Array, Array]:
         """The force on the friction cone's edge, scaled to match the normal velocity."""
-        scale = self._edge(p_y, mode)[0]
         friction = mode * self.slider.friction_pusher
+        scale = point_contact.cone_edge(self._mobility(p_y), friction)[0]
         c_squared, p_x = self.slider.support_radius**2, self.slider.p_x
         scale_by_p_y = (2.0 * p_y - friction * p_x) / c_squared
         f_n = np.sin(beta) / scale

@@ -6,9 +6,11 @@ axes the same push would turn the slider by a few per cent more or less with its
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from push_core.actuator import Pair
+from push_core.errors import InputError
 from push_core.frames import Array, rotation, to_body, to_world, wrap_angle
 from push_core.limit_surface import GRAVITY
 from push_core.quaternion import quaternion_to_yaw, yaw_to_quaternion
@@ -22,6 +24,7 @@ from push_sim.bullet_bodies import (
     make_tip,
     resting_height,
 )
+from push_sim.bullet_snapshot import put_server_state, server_state
 from push_sim.settings import WorldSettings
 
 _CONTACT_RANGE = 1e-3
@@ -29,6 +32,23 @@ _FOLLOW_TIME = 0.01
 _ASIDE = (0.0, 0.0, 10.0)
 _REST = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class BulletSnapshot:
+    """The whole state of a `BulletWorld`.
+
+    Attributes:
+        server: that of the physics server.
+        axes: pose (3,) of the axes of the physics.
+        steps_left: until the axes follow the slider again.
+        impulse: (2,) that the next time step gives, if any [N s].
+    """
+
+    server: bytes
+    axes: tuple[float, ...]
+    steps_left: int
+    impulse: tuple[float, ...] | None
 
 
 class BulletWorld:
@@ -89,6 +109,21 @@ class BulletWorld:
     def push_object(self, impulse: Array) -> None:
         """See `World.push_object`."""
         self._impulse = np.array(impulse, dtype=float)
+
+    def snapshot(self) -> BulletSnapshot:
+        """See `World.snapshot`."""
+        impulse = None if self._impulse is None else tuple(self._impulse.tolist())
+        axes = tuple(self._axes.tolist())
+        return BulletSnapshot(server_state(self._client), axes, self._steps_left, impulse)
+
+    def restore(self, snapshot: object) -> None:
+        """See `World.restore`."""
+        if not isinstance(snapshot, BulletSnapshot):
+            raise InputError('this snapshot is of another engine, not of bullet')
+        put_server_state(self._client, snapshot.server)
+        self._set_axes(np.array(snapshot.axes))
+        self._steps_left = snapshot.steps_left
+        self._impulse = None if snapshot.impulse is None else np.array(snapshot.impulse)
 
     @property
     def object_pose(self) -> Array:

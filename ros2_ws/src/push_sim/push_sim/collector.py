@@ -13,9 +13,9 @@ from push_core.frames import Array, to_body, wrap_angle
 from push_core.settings import setting, validate
 from push_core.slider import Slider
 
-from push_sim.bullet_world import BulletWorld
 from push_sim.sensor import Observation, Sensor
 from push_sim.settings import SimSettings
+from push_sim.worlds import make_world
 
 _SUBSTEP = 0.005
 _AT_ORIGIN = np.zeros(3)
@@ -60,7 +60,7 @@ class Collector:
 
     def __init__(self, settings: SimSettings, slider: Slider, design: PushDesign) -> None:
         # a quasi-static push comes out the same with longer steps (2 um rms), five times faster
-        self._world = BulletWorld(replace(settings.world, substep=_SUBSTEP), slider)
+        self._world = make_world(replace(settings.world, substep=_SUBSTEP), slider)
         self._sensor = Sensor(settings.sensor)
         self._slider = slider
         self._design = design

@@ -1,21 +1,40 @@
 """The plant: world, robot, cameras and disturbances, one period at a time."""
 
+import copy
 import math
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from push_core.errors import InputError
 from push_core.frames import Array
 from push_core.slider import Slider
 
-from push_sim.bullet_world import BulletWorld
 from push_sim.driver import Driver
 from push_sim.perturbation import Disturbance, Perturbation, Schedule, disturb
 from push_sim.sensor import Observation, Sensor
 from push_sim.settings import PERIOD, SimSettings
+from push_sim.worlds import make_world
 
-__all__ = ['Observation', 'Plant']
+__all__ = ['Observation', 'Plant', 'PlantSnapshot']
 
 _NANOSECOND = 1e-9
+_NOT_COPIED = ('_settings', '_world')
+
+
+@dataclass(frozen=True)
+class PlantSnapshot:
+    """The whole state of a `Plant`; no run changes it, and it can be pickled.
+
+    Attributes:
+        settings: of the plant and of its slider.
+        world: what the world told of itself.
+        parts: all else, copied at once, so that what two of them share stays shared.
+    """
+
+    settings: tuple[SimSettings, Slider]
+    world: object
+    parts: dict[str, Any]
 
 
 class Plant:
@@ -29,7 +48,8 @@ class Plant:
     START = 1.0
 
     def __init__(self, settings: SimSettings, slider: Slider) -> None:
-        self._world = BulletWorld(settings.world, slider)
+        self._settings = settings, slider
+        self._world = make_world(settings.world, slider)
         self._driver = Driver(settings.actuator, settings.command_timeout, settings.command_loss)
         self._sensor = Sensor(settings.sensor)
         self._schedule = Schedule(settings.perturbation)
@@ -101,8 +121,26 @@ class Plant:
         taken, self._disturbances = self._disturbances, []
         return taken
 
+    def snapshot(self) -> PlantSnapshot:
+        """The whole state, for `restore`; taking it changes nothing."""
+        parts = {name: part for name, part in vars(self).items() if name not in _NOT_COPIED}
+        return PlantSnapshot(self._settings, self._world.snapshot(), copy.deepcopy(parts))
+
+    def restore(self, snapshot: PlantSnapshot) -> None:
+        """Goes back to a snapshot of this plant, or of another one of the same settings.
+
+        What follows is what followed the snapshot, to the last bit, whatever happened since.
+
+        Raises:
+            InputError: the plant of the snapshot had other settings.
+        """
+        if snapshot.settings != self._settings:
+            raise InputError('a snapshot can only be restored in a plant of the same settings')
+        self._world.restore(snapshot.world)
+        vars(self).update(copy.deepcopy(snapshot.parts))
+
     def close(self) -> None:
-        """Frees the physics server."""
+        """Frees what the world holds."""
         self._world.close()
 
     @property

@@ -8,8 +8,9 @@ from dataclasses import replace
 
 from push_core.slider import Slider
 
-from push_sim.bullet_world import BulletWorld
 from push_sim.settings import WorldSettings
+from push_sim.world import World
+from push_sim.worlds import make_world
 
 SUBSTEP = 0.005
 """Time step of the world [s]."""
@@ -18,6 +19,6 @@ SPEED = 0.02
 """Speed of the tip [m/s] where a measurement does not tell it: 0.1 mm in a time step."""
 
 
-def quick_world(settings: WorldSettings, slider: Slider) -> BulletWorld:
+def quick_world(settings: WorldSettings, slider: Slider) -> World:
     """A world of these settings but for the time step; close it after use."""
-    return BulletWorld(replace(settings, substep=SUBSTEP), slider)
+    return make_world(replace(settings, substep=SUBSTEP), slider)

@@ -19,6 +19,11 @@ PERIOD = 0.01
 class WorldSettings:
     """The rigid bodies, their friction, and how finely time is cut."""
 
+    engine: str = setting(
+        'bullet',
+        'physics; quasi_static: the motion cone of an ellipsoid, no inertia',
+        choices=('bullet', 'quasi_static'),
+    )
     substep: float = setting(
         0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
     )

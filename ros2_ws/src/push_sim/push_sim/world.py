@@ -7,7 +7,7 @@ from push_core.frames import Array
 
 
 class World(Protocol):
-    """Rigid bodies in the plane; PyBullet or anything else that can step."""
+    """Rigid bodies in the plane; `worlds.make_world` knows the engines."""
 
     def reset(self, object_pose: Array, tip_position: Array) -> None:
         """Puts all at rest; what happened before leaves no trace, to the last bit.
@@ -28,6 +28,21 @@ class World(Protocol):
 
     def push_object(self, impulse: Array) -> None:
         """Gives the object an impulse (2,) [N s] at its centre in the next time step."""
+
+    def snapshot(self) -> object:
+        """The whole state, for `restore`; taking it changes nothing."""
+
+    def restore(self, snapshot: object) -> None:
+        """Goes back to a snapshot of a world of the same settings.
+
+        What follows is what followed the snapshot, to the last bit, whatever happened since.
+
+        Raises:
+            InputError: the snapshot is not of such a world.
+        """
+
+    def close(self) -> None:
+        """Frees what the world holds; it can do nothing more."""
 
     @property
     def object_pose(self) -> Array:

@@ -1,5 +1,5 @@
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,6 +11,7 @@ from push_core.frames import Array, rotation
 from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
 from push_core.push_csv import write_pushes
 from push_core.push_set import PushSet
+from push_core.settings import replaced
 from push_core.slider import Slider
 from push_sim.collector import Collector, PushDesign
 from push_sim.plant import Plant
@@ -21,7 +22,10 @@ from push_sim.robot_run import RobotRun
 from push_sim.run_windows import INTERVAL, Windows
 from push_sim.settings import WorldSettings, profile
 from push_sim.tip_replay import commanded_tip
+from push_sim.world import World
+from push_sim.worlds import make_world
 
+ENGINES = ('bullet', 'quasi_static')
 POSE = np.array([0.1, -0.2, 0.3])
 
 
@@ -46,14 +50,30 @@ def weave():
     return velocity
 
 
-@pytest.fixture
-def ideal(slider: Slider) -> Plant:
-    return Plant(profile('ideal'), slider)
+@pytest.fixture(params=ENGINES)
+def engine(request: pytest.FixtureRequest) -> str:
+    return request.param
 
 
 @pytest.fixture
-def irb120(slider: Slider) -> Plant:
-    return Plant(profile('irb120'), slider)
+def world(engine: str, slider: Slider) -> Iterator[World]:
+    world = make_world(WorldSettings(engine=engine), slider)
+    yield world
+    world.close()
+
+
+@pytest.fixture
+def ideal(engine: str, slider: Slider) -> Iterator[Plant]:
+    plant = Plant(replaced(profile('ideal'), {'world.engine': engine}), slider)
+    yield plant
+    plant.close()
+
+
+@pytest.fixture
+def irb120(engine: str, slider: Slider) -> Iterator[Plant]:
+    plant = Plant(replaced(profile('irb120'), {'world.engine': engine}), slider)
+    yield plant
+    plant.close()
 
 
 MeasureArtificially = Callable[[Path, WorldSettings, ActuatorSettings], Path]

@@ -1,3 +1,4 @@
+import pickle
 import subprocess
 import sys
 from dataclasses import replace
@@ -42,6 +43,52 @@ def test_a_reset_gives_the_same_trajectory_bit_for_bit_whatever_came_before(
             plant.step()
     plant.perturb(Perturbation(Kind.IMPULSE, 0.3, 1.0))
     assert np.array_equal(run(plant, start, weave), first)
+
+
+def commanded(plant: Plant, weave, first: int, last: int) -> list[np.ndarray | None]:
+    """All that the sensor showed in some periods of a weaving push."""
+    shown = []
+    for tick in range(first, last):
+        plant.command(weave(tick), plant.time)
+        seen = plant.step()
+        shown.append(seen and np.array([seen.time, *seen.object_pose, *seen.tip_position]))
+    return shown
+
+
+def same(one: list[np.ndarray | None], other: list[np.ndarray | None]) -> bool:
+    return all(np.array_equal(a, b) for a, b in zip(one, other, strict=True))
+
+
+@pytest.mark.parametrize('name', PROFILES)
+def test_a_restored_plant_goes_on_to_the_last_bit_in_the_same_object_or_another(
+    name, engine, slider, start, weave
+) -> None:
+    changes = {
+        'world.engine': engine,
+        'perturbation.kind': 'impulse',
+        'perturbation.time': 0.3,
+    }
+    settings = replaced(profile(name), changes)
+    plant, other = Plant(settings, slider), Plant(settings, slider)
+    plant.reset(*start, 3)
+    before = commanded(plant, weave, 0, 23)
+    snapshot = pickle.loads(pickle.dumps(plant.snapshot()))
+    after = commanded(plant, weave, 23, 60)
+    for restored in (plant, other):
+        restored.reset(np.zeros(3), np.array([-0.06, 0.0]), 8)
+        commanded(restored, weave, 40, 50)
+        restored.restore(snapshot)
+        assert same(commanded(restored, weave, 23, 60), after)
+        assert [d.kind for d in restored.take_disturbances()] == [Kind.IMPULSE]
+    plant.reset(*start, 3)
+    assert same(commanded(plant, weave, 0, 60), before + after)
+
+
+def test_a_snapshot_of_other_settings_is_refused(slider, start) -> None:
+    plant, other = Plant(profile('ideal'), slider), Plant(profile('irb120'), slider)
+    plant.reset(*start, 0)
+    with pytest.raises(InputError, match='same settings'):
+        other.restore(plant.snapshot())
 
 
 def test_another_process_gives_the_same_trajectory(slider) -> None:

@@ -1,0 +1,200 @@
+"""The quasi-static world: a square without inertia under an ellipsoidal limit surface.
+
+It moves only while the tip pushes it, by the motion cone, integrated along the way. After an
+impulse it slides straight on and comes to rest as Coulomb's friction says, unless it meets the tip
+first, which takes its speed. Nothing overlaps by more than a picometre; a square that is put down
+on the tip is moved aside.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.actuator import Pair
+from push_core.errors import InputError
+from push_core.frames import Array, wrap_angle
+from push_core.limit_surface import GRAVITY
+from push_core.slider import Slider
+
+from push_sim.outline import Outline
+from push_sim.rolling_contact import RollingContact, Touch, turned
+from push_sim.settings import WorldSettings
+
+_OVERLAP = 1e-12
+_TRAVEL = 0.25e-3
+_BISECTIONS = 40
+
+
+@dataclass(frozen=True)
+class QuasiStaticSnapshot:
+    """The whole state of a `QuasiStaticWorld`."""
+
+    pose: tuple[float, float, float]
+    tip: Pair
+    sliding: Pair
+    touch: Touch | None
+    pressing: bool
+
+
+class QuasiStaticWorld:
+    """A `World` of motion cones."""
+
+    def __init__(self, settings: WorldSettings, slider: Slider) -> None:
+        self._substep = settings.substep
+        self._mass = slider.mass
+        self._deceleration = settings.friction_ground * GRAVITY
+        self._touch: Touch | None = None
+        self._outline = Outline(slider.side, slider.tip_radius)
+        self._rolling = RollingContact(
+            self._outline, settings.support_radius, settings.friction_pusher
+        )
+        self.reset(np.zeros(3), np.array([-2.0 * slider.side, 0.0]))
+
+    def close(self) -> None:
+        """Nothing to free."""
+
+    def reset(self, object_pose: Array, tip_position: Array) -> None:
+        """See `World.reset`."""
+        self.place_tip(tip_position)
+        self.place_object(object_pose)
+
+    def place_object(self, object_pose: Array) -> None:
+        """See `World.place_object`."""
+        x, y, theta = np.asarray(object_pose, dtype=float).tolist()
+        self._pose = (x, y, theta)
+        self._sliding: Pair = (0.0, 0.0)
+        self._touch = None
+        self._pressing = False
+
+    def place_tip(self, position: Array) -> None:
+        """See `World.place_tip`."""
+        x, y = np.asarray(position, dtype=float).tolist()
+        self._tip: Pair = (x, y)
+        self._touch = None
+
+    def push_object(self, impulse: Array) -> None:
+        """See `World.push_object`."""
+        x, y = np.asarray(impulse, dtype=float).tolist()
+        self._sliding = (self._sliding[0] + x / self._mass, self._sliding[1] + y / self._mass)
+        self._touch = None
+
+    def advance(self, tip_velocity: Pair, substeps: int) -> None:
+        """See `World.advance`."""
+        velocity = (float(tip_velocity[0]), float(tip_velocity[1]))
+        left = substeps * self._substep
+        self._make_room()
+        while left > 0.0:
+            left = self._push(velocity, left) if self._touch else self._approach(velocity, left)
+        self._pressing = self._touch is not None
+
+    def snapshot(self) -> QuasiStaticSnapshot:
+        """See `World.snapshot`."""
+        return QuasiStaticSnapshot(
+            self._pose, self._tip, self._sliding, self._touch, self._pressing
+        )
+
+    def restore(self, snapshot: object) -> None:
+        """See `World.restore`."""
+        if not isinstance(snapshot, QuasiStaticSnapshot):
+            raise InputError('this snapshot is of another engine, not of quasi_static')
+        self._pose, self._tip = snapshot.pose, snapshot.tip
+        self._sliding, self._touch = snapshot.sliding, snapshot.touch
+        self._pressing = snapshot.pressing
+
+    @property
+    def object_pose(self) -> Array:
+        """See `World.object_pose`."""
+        x, y, theta = self._pose
+        return np.array([x, y, wrap_angle(theta)])
+
+    @property
+    def tip_position(self) -> Array:
+        """See `World.tip_position`."""
+        return np.array(self._tip)
+
+    @property
+    def contact(self) -> bool:
+        """See `World.contact`."""
+        return self._pressing
+
+    @property
+    def penetration(self) -> float:
+        """Overlap [m] of square and tip."""
+        return max(0.0, -self._gap())
+
+    def _push(self, velocity: Pair, duration: float) -> float:
+        """Pushes until the tip leaves the square; returns the time [s] that is left."""
+        assert self._touch is not None
+        touch, left = self._rolling.advance(self._touch, velocity, duration)
+        self._move_tip(velocity, duration - left)
+        self._pose = self._pose_of(touch)
+        self._touch = touch if left == 0.0 else None
+        return left
+
+    def _approach(self, velocity: Pair, duration: float) -> float:
+        """Moves tip and square apart from each other until they touch; returns the time left."""
+        step = self._free_step(velocity, duration)
+        before = self._tip, self._pose, self._sliding
+        self._drift(velocity, step)
+        if self._gap() >= -_OVERLAP:
+            return duration - step
+        low, high = 0.0, step
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (low + high)
+            self._tip, self._pose, self._sliding = before
+            self._drift(velocity, middle)
+            low, high = (middle, high) if self._gap() >= 0.0 else (low, middle)
+        self._sliding = (0.0, 0.0)
+        self._take_touch()
+        return duration - high
+
+    def _free_step(self, velocity: Pair, duration: float) -> float:
+        """A time [s] in which the two move little, or not as far as they are apart."""
+        speed = math.hypot(*velocity) + math.hypot(*self._sliding)
+        clear = max(self._gap(), _TRAVEL)
+        return min(duration, clear / speed) if speed > 0.0 else duration
+
+    def _drift(self, velocity: Pair, duration: float) -> None:
+        """Moves the tip, and the square as far as it slides."""
+        self._move_tip(velocity, duration)
+        speed = math.hypot(*self._sliding)
+        if speed == 0.0:
+            return
+        slid = min(duration, speed / self._deceleration)
+        lost = self._deceleration * slid / speed
+        (x, y, theta), (u, v) = self._pose, self._sliding
+        part = slid * (1.0 - 0.5 * lost)
+        self._pose = (x + part * u, y + part * v, theta)
+        kept = 0.0 if slid < duration else 1.0 - lost
+        self._sliding = (kept * u, kept * v)
+
+    def _move_tip(self, velocity: Pair, duration: float) -> None:
+        x, y = self._tip
+        self._tip = (x + velocity[0] * duration, y + velocity[1] * duration)
+
+    def _make_room(self) -> None:
+        """Moves the square aside where it was put down on the tip."""
+        if self._touch is None and self._gap() < -_OVERLAP:
+            self._take_touch()
+            self._touch = None
+
+    def _take_touch(self) -> None:
+        """Both touch: at the place of the outline that is nearest to the tip."""
+        touch = Touch(self._outline.nearest(*self._tip_in_body()), self._pose[2])
+        self._touch, self._pose = touch, self._pose_of(touch)
+
+    def _pose_of(self, touch: Touch) -> tuple[float, float, float]:
+        """The pose in which the square touches the tip so."""
+        angle, normal, tangential = self._outline.frame(
+            touch.along, self._outline.piece(touch.along)
+        )
+        tip = (normal - self._outline.tip_radius, tangential)
+        x, y = turned(tip, -(touch.theta + angle))
+        return self._tip[0] - x, self._tip[1] - y, touch.theta
+
+    def _gap(self) -> float:
+        return self._outline.gap(*self._tip_in_body())
+
+    def _tip_in_body(self) -> Pair:
+        x, y, theta = self._pose
+        return turned((self._tip[0] - x, self._tip[1] - y), theta)
