@@ -52,7 +52,6 @@ def test_a_bad_argument_is_named(refused, arguments, said) -> None:
         ('x,y\n0,0\n0.1,abc\n', 'track.csv:3'),
         ('0,0\n0.1,nan\n', 'track.csv:2'),
         ('0,0\n0,0\n0,0\n0,0\n', 'at least 4 different points'),
-        ('0,0\n0.01,0\n0.01,0.01\n0,0.01\n0,0\n', 'too tightly'),
     ],
 )
 def test_a_bad_track_is_named_with_its_place(refused, tmp_path, content, said) -> None:

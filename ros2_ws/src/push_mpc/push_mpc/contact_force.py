@@ -62,6 +62,15 @@ class ContactForce:
         inputs[:, 2] = v_t - twist[:, 1] - self.slider.p_x * twist[:, 2]
         return inputs
 
+    def of_speeds(self, speeds: Array) -> Array:
+        """The inputs (n, 3) whose force moves an object that does not turn at speeds (n, 4).
+
+        Args:
+            speeds: of f_n, of f_t, of the slip to the left and of that to the right [m/s].
+        """
+        forces = speeds[:, :2] / self._weights[0]
+        return np.column_stack([forces, speeds[:, 2] - speeds[:, 3]])
+
     @property
     def _weights(self) -> Array:
         return LimitSurface.of(self.slider).weights

@@ -18,6 +18,15 @@ class MpcSettings(ControllerSettings):
         0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
     )
     laps: int = setting(1, 'rounds of a closed track', low=1, high=1000)
+    planner: str = setting(
+        'auto',
+        'flat: sticking at p_y = 0; optimal: collocation, seconds; auto: flat where it exists',
+        choices=('auto', 'flat', 'optimal'),
+    )
+    start_heading: str = setting(
+        'free', 'of the object at the start in degrees, or free; a number needs the optimal plan'
+    )
+    end_heading: str = setting('free', 'of the object at the end, likewise')
     profile: str = setting(
         'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
     )

@@ -20,6 +20,10 @@ _SETTLING_LENGTHS = 30.0
 _LARGEST_SIDE_SLIP = math.radians(45.0)
 
 
+class TooTightError(InputError):
+    """The flat solution cannot follow the track."""
+
+
 @dataclass(frozen=True)
 class Plan:
     """A timed reference, sampled every `period`; it runs on past its end for the horizon.
@@ -60,19 +64,18 @@ def flat_plan(
         track: path of the object's centre.
         speed: of the centre [m/s].
         slider: the pushed square.
-        laps: rounds of a closed track; an open one has 1.
+        laps: rounds of the track.
         period: time between samples [s].
         overrun: time [s] for which the plan goes on after its end.
 
     Raises:
-        InputError: the path is too tight for the square, or an open track has several laps.
+        TooTightError: the path is too tight for the square.
     """
-    if laps > 1 and not track.closed:
-        raise InputError(f'track {track.name} is open and has no second lap')
     duration = laps * track.length / speed
     samples = math.ceil((duration + overrun) / period) + 1
     s = speed * period * np.arange(samples)
-    x, y, heading = _path(track, s)
+    x, y, heading = path(track, s)
+    _check_turns(track, s, heading, _slip_length(slider))
     alpha = _side_slip(track, s, _slip_length(slider))
     omega = -speed * np.sin(alpha) / _slip_length(slider)
     v_x, v_y = speed * np.cos(alpha), speed * np.sin(alpha)
@@ -86,7 +89,7 @@ def _slip_length(slider: Slider) -> float:
     return slider.support_radius**2 / abs(slider.p_x)
 
 
-def _path(track: Track, s: Array) -> tuple[Array, Array, Array]:
+def path(track: Track, s: Array) -> tuple[Array, Array, Array]:
     """Position and heading (n,); an open track goes straight on after its end."""
     within = s if track.closed else np.minimum(s, track.length)
     x, y, heading, _ = track.at(within)
@@ -145,8 +148,19 @@ def _check_side_slip(track: Track, s: Array, alpha: Array, slip_length: float) -
     """Beyond this side-slip the face cannot be turned towards the path any more."""
     worst = int(np.argmax(np.abs(alpha)))
     if abs(alpha[worst]) > _LARGEST_SIDE_SLIP:
-        tightest = slip_length / math.sin(_LARGEST_SIDE_SLIP)
-        raise InputError(
-            f'track {track.name} turns too tightly near {s[worst] * 1e3:.0f} mm along it; '
-            f'this square can be pushed round a radius of {tightest * 1e3:.0f} mm'
-        )
+        _refuse(track, s[worst], slip_length)
+
+
+def _check_turns(track: Track, s: Array, heading: Array, slip_length: float) -> None:
+    """A cusp has no curvature that could be too large."""
+    turns = np.abs(np.diff(heading))
+    if turns.max() > _LARGEST_SIDE_SLIP:
+        _refuse(track, s[int(np.argmax(turns))], slip_length)
+
+
+def _refuse(track: Track, place: float, slip_length: float) -> None:
+    tightest = slip_length / math.sin(_LARGEST_SIDE_SLIP)
+    raise TooTightError(
+        f'track {track.name} turns too tightly near {place * 1e3:.0f} mm along it; '
+        f'this square can be pushed round a radius of {tightest * 1e3:.0f} mm'
+    )

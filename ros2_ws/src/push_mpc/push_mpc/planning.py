@@ -1,12 +1,15 @@
 """From the node's parameters to the plan that it tracks."""
 
+import math
+
 import numpy as np
 from push_core import tracks
 from push_core.errors import InputError
 from push_core.safety import SafetyLimits
 
 from push_mpc.node_settings import MpcSettings
-from push_mpc.nominal import Plan, flat_plan
+from push_mpc.nominal import Plan, TooTightError, flat_plan
+from push_mpc.optimal_plan import Task, optimal_plan
 
 _PLACES = 1000
 _MARGIN = 0.5  # [s] beyond horizon and delay
@@ -25,13 +28,51 @@ def planned(settings: MpcSettings) -> Plan:
             f'parameter speed is {settings.speed:g}, must be between 0.001 and {fastest:g} m/s, '
             'the limit of the pusher'
         )
-    delay = settings.actuator.dead_time + settings.actuator.lag
-    overrun = settings.horizon_length / settings.speed + delay + _MARGIN
     track = tracks.by_name(settings.track)
     _check_workspace(track, settings.limits)
-    return flat_plan(
-        track, settings.speed, settings.slider, settings.laps, settings.period, overrun
+    if settings.laps > 1 and not track.closed:
+        raise InputError(f'track {track.name} is open and has no second lap')
+    task = _task(settings, track)
+    if settings.planner == 'optimal' or task.headings != (None, None):
+        return optimal_plan(task)
+    try:
+        return flat_plan(
+            track, settings.speed, settings.slider, settings.laps, settings.period, task.overrun
+        )
+    except TooTightError:
+        if settings.planner == 'flat':
+            raise
+        return optimal_plan(task)
+
+
+def _task(settings: MpcSettings, track: tracks.Track) -> Task:
+    delay = settings.actuator.dead_time + settings.actuator.lag
+    return Task(
+        track=track,
+        speed=settings.speed,
+        slider=settings.slider,
+        duration=settings.laps * track.length / settings.speed,
+        overrun=settings.horizon_length / settings.speed + delay + _MARGIN,
+        period=settings.period,
+        speed_limits=(settings.normal_speed_limit, settings.tangential_speed_limit),
+        headings=(
+            _heading('start_heading', settings.start_heading),
+            _heading('end_heading', settings.end_heading),
+        ),
     )
+
+
+def _heading(name: str, text: str) -> float | None:
+    """A heading [rad] from degrees, None for a free one."""
+    if text == 'free':
+        return None
+    try:
+        degrees = float(text)
+    except ValueError:
+        degrees = math.nan
+    if not math.isfinite(degrees):
+        raise InputError(f'parameter {name} is {text!r}, must be a number of degrees or free')
+    return math.radians(degrees)
 
 
 def _check_workspace(track: tracks.Track, limits: SafetyLimits) -> None:

@@ -5,11 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
 from push_core.motion_cone import ContactMode, MotionCone
-from push_core.tracks import ArcTrack, by_name
+from push_core.tracks import ArcTrack, SplineTrack, by_name
 from push_mpc.dynamics import rates
-from push_mpc.nominal import flat_plan
+from push_mpc.nominal import TooTightError, flat_plan
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 
@@ -113,18 +112,21 @@ def test_an_open_track_goes_straight_on_for_the_horizon(slider) -> None:
     assert np.allclose(plan.input, [SPEED, 0.0], rtol=0, atol=1e-15)
 
 
-def test_an_open_track_has_no_second_lap(slider) -> None:
-    with pytest.raises(InputError, match='track line is open and has no second lap'):
-        flat_plan(by_name('line'), SPEED, slider, laps=2, period=0.01, overrun=1.0)
-
-
 def test_too_tight_a_turn_is_refused_with_its_place(slider) -> None:
     pieces = [(0.3, 0.0), (0.06, 1.0 / 0.02), (0.3, 0.0)]
     tight = ArcTrack('hairpin', pieces, heading=0.0, closed=False)
-    with pytest.raises(InputError, match='track hairpin turns too tightly near') as caught:
+    with pytest.raises(TooTightError, match='track hairpin turns too tightly near') as caught:
         flat_plan(tight, SPEED, slider, laps=1, period=0.01, overrun=1.0)
     place = float(str(caught.value).split('near ')[1].split(' mm')[0])
     assert 270.0 < place < 360.0
+
+
+def test_a_track_that_turns_back_on_itself_is_refused_with_its_place(slider) -> None:
+    there = np.linspace(0.0, 0.2, 21)
+    back = np.concatenate([there, there[-2::-1]])
+    hairpin = SplineTrack('hairpin', np.column_stack([back, np.zeros_like(back)]))
+    with pytest.raises(TooTightError, match='track hairpin turns too tightly near 200 mm'):
+        flat_plan(hairpin, SPEED, slider, laps=1, period=0.01, overrun=1.0)
 
 
 def test_between_samples_the_plan_is_interpolated_and_beyond_its_ends_held(eight) -> None:

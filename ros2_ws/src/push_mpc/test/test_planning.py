@@ -26,11 +26,16 @@ def test_a_track_in_millimetres_is_refused_at_once(tmp_path) -> None:
         planned(replace(SETTINGS, track=str(path)))
 
 
+def test_an_open_track_has_no_second_lap() -> None:
+    with pytest.raises(InputError, match='track line is open and has no second lap'):
+        planned(replace(SETTINGS, track='line', laps=2))
+
+
 def test_an_unknown_track_is_refused() -> None:
     with pytest.raises(InputError, match="unknown track 'nine'"):
         planned(replace(SETTINGS, track='nine'))
 
 
 def test_an_unknown_profile_is_refused() -> None:
-    with pytest.raises(InputError, match="profile is 'kuka', must be one of irb120, ideal"):
+    with pytest.raises(InputError, match="profile is 'kuka', must be one of irb120, harsh, ideal"):
         mpc_settings('kuka')
