@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from push_core.frames import Array
 
-from push_gp.gp import GaussianProcess
+from push_gp.folded_process import Process
 from push_gp.kernel import input_features, query_features
 
 CACHED_NUMBERS = 100_000
@@ -20,7 +20,7 @@ class BatchedMean:
     [w, w b_1, w b_2] yields both.
     """
 
-    def __init__(self, processes: Sequence[GaussianProcess]) -> None:
+    def __init__(self, processes: Sequence[Process]) -> None:
         """Precomputes for k processes that share their n inputs."""
         scaled = [gp.inputs / gp.hyperparameters.lengthscales for gp in processes]
         weights = [gp.weights * gp.hyperparameters.signal_std**2 for gp in processes]

@@ -10,9 +10,6 @@ from push_core.push_set import PushSet
 
 from push_gp.gp_model import GpModel
 
-TWO_SIDED_95 = 1.959963984540054
-"""Standard deviations on each side of the mean that hold 95 % of a normal distribution."""
-
 
 @dataclass(frozen=True)
 class Calibration:
@@ -33,4 +30,4 @@ def calibration(model: GpModel, pushes: PushSet) -> Calibration:
     variance = model.variance(pushes.p_y, pushes.beta) + model.noise_variance
     squared = (predicted - pushes.displacement) ** 2 / variance
     density = 0.5 * (squared + np.log(2.0 * math.pi * variance / READABLE**2))
-    return Calibration(density.mean(axis=0), np.mean(squared <= TWO_SIDED_95**2, axis=0))
+    return Calibration(density.mean(axis=0), np.mean(squared <= model.interval_95**2, axis=0))

@@ -4,14 +4,13 @@ The pushes are summed once into a small table of coefficients between the featur
 of beta; an answer is then two matrix products, exact to round-off within the domain.
 """
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 from push_core.frames import Array
-from push_core.push_set import P_Y_LIMIT
 
-from push_gp.gp import GaussianProcess
+from push_gp.domain import CENTRE, COVERED
+from push_gp.folded_process import Process
 from push_gp.kernel_features import (
     MOST_FEATURES,
     enough_features,
@@ -19,15 +18,11 @@ from push_gp.kernel_features import (
     features,
 )
 
-CENTRE = np.array([0.0, math.pi / 2.0])
-COVERED = np.array([P_Y_LIMIT, math.pi / 2.0]) * 1.001
-"""Pushes lie within centre +- this [m, rad], and so does what the controller asks."""
-
 
 class FeatureMean:
     """The posterior mean of k processes that share their inputs, folded into coefficients."""
 
-    def __init__(self, processes: Sequence[GaussianProcess]) -> None:
+    def __init__(self, processes: Sequence[Process]) -> None:
         """Folds the pushes in; see `suits` for what processes."""
         self._lengthscales = _lengthscales(processes)
         self._count = _feature_count(self._lengthscales)
@@ -37,14 +32,9 @@ class FeatureMean:
         self._coefficients = weighted @ np.swapaxes(around, 1, 2)
 
     @staticmethod
-    def suits(processes: Sequence[GaussianProcess]) -> bool:
+    def suits(processes: Sequence[Process]) -> bool:
         """Whether the lengthscales are long enough for a small table."""
         return _feature_count(_lengthscales(processes)) <= MOST_FEATURES
-
-    @staticmethod
-    def covers(queries: Array) -> bool:
-        """Whether (m, 2) queries lie where the answers are exact."""
-        return bool((np.abs(queries - CENTRE) <= COVERED).all())
 
     def evaluate(self, queries: Array) -> tuple[Array, Array]:
         """Mean (m, k) and Jacobian (m, k, 2) at (m, 2) queries within the domain."""
@@ -66,7 +56,7 @@ class FeatureMean:
         return np.asarray(offsets / self._lengthscales.T[:, :, None])
 
 
-def _lengthscales(processes: Sequence[GaussianProcess]) -> Array:
+def _lengthscales(processes: Sequence[Process]) -> Array:
     return np.array([gp.hyperparameters.lengthscales for gp in processes])
 
 

@@ -3,27 +3,36 @@
 Fully deterministic: fixed starts on a part of the pushes, then ever more pushes from the best.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import TypeAlias
 
 import numpy as np
 from push_core.errors import RunError
 from push_core.frames import Array
 from scipy.optimize import OptimizeResult, minimize
 
+from push_gp.folded_likelihood import FoldedLikelihood
 from push_gp.hyperparameters import Hyperparameters
 from push_gp.likelihood import MarginalLikelihood
+from push_gp.newton import stationary_point
 from push_gp.prior import Prior
 
 FIRST_STAGE = 300
 STAGE_GROWTH = 4
-"""Restarts run on 300 pushes; each later stage takes four times as many, from the best so far."""
+"""The first starts run on 300 pushes; each later stage takes four times as many."""
 
 STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0], [1, 1, 0.3, 3]])
 """(k, 4) factors on the prior's centre where the search starts."""
 
+RESTARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 1.0, 1.0, 1.0]])
+"""(k, 4) factors on the best so far where each later stage starts: more pushes may show more
+detail along the face than fewer did."""
+
 HOPELESS = 1e25
 TOLERANCE = 1e-8
 """Relative to the log likelihood, which is a few nats per push."""
+
+Loss: TypeAlias = Callable[[Array], tuple[float, Array]]
 
 
 def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
@@ -39,30 +48,36 @@ def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
     """
     starts = prior.centre + STARTS
     for rows in _stages(len(outputs)):
-        likelihood = MarginalLikelihood(inputs[rows], outputs[rows])
-        best = _best(likelihood, prior, starts)
-        starts = best[None, :]
-    return Hyperparameters.from_logarithms(best)
+        loss = _loss(inputs[rows], outputs[rows], prior)
+        best = _best(loss, prior, starts)
+        starts = best + RESTARTS
+    return Hyperparameters.from_logarithms(
+        stationary_point(lambda at: loss(at)[1], best, prior.low, prior.high)
+    )
 
 
 def _stages(count: int) -> Iterator[slice]:
     """Growing selections, spread evenly over the rows; the last one is everything."""
     size = FIRST_STAGE
-    while size < count:
+    while 2 * size <= count:
         yield slice(None, None, -(-count // size))
         size *= STAGE_GROWTH
     yield slice(None)
 
 
-def _best(likelihood: MarginalLikelihood, prior: Prior, starts: Array) -> Array:
-    found = [_climb(likelihood, prior, start) for start in starts]
+def _best(loss: Loss, prior: Prior, starts: Array) -> Array:
+    found = [_climb(loss, prior, start) for start in starts]
     best = min(found, key=lambda result: float(result.fun))
     if best.fun >= HOPELESS:
         raise RunError('no hyperparameters explain these pushes')
     return np.asarray(best.x)
 
 
-def _climb(likelihood: MarginalLikelihood, prior: Prior, start: Array) -> OptimizeResult:
+def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
+    """Negative log posterior [nat] with its gradient (4,)."""
+    few = len(outputs) <= FIRST_STAGE
+    likelihood = (MarginalLikelihood if few else FoldedLikelihood)(inputs, outputs)
+
     def loss(logarithms: Array) -> tuple[float, Array]:
         try:
             value, slope = likelihood.with_gradient(Hyperparameters.from_logarithms(logarithms))
@@ -71,6 +86,10 @@ def _climb(likelihood: MarginalLikelihood, prior: Prior, start: Array) -> Optimi
         belief, belief_slope = prior.with_gradient(logarithms)
         return -value - belief, -slope - belief_slope
 
+    return loss
+
+
+def _climb(loss: Loss, prior: Prior, start: Array) -> OptimizeResult:
     return minimize(
         loss,
         np.clip(start, prior.low, prior.high),

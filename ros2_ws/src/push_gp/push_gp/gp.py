@@ -58,7 +58,7 @@ class GaussianProcess:
         covariance = correlation(differences, self.hyperparameters.lengthscales)
         covariance *= self.hyperparameters.signal_std**2
         covariance.flat[:: len(covariance) + 1] += self.hyperparameters.noise_std**2
-        return _factor(covariance)
+        return factor(covariance)
 
     def mean(self, queries: Array) -> Array:
         """(m,) expected outputs at (m, 2) queries."""
@@ -75,6 +75,15 @@ class GaussianProcess:
         # where pushes lie close, the difference is round-off and may come out negative
         return np.maximum(result, 0.0, out=result)
 
+    def left_out(self) -> tuple[Array, Array]:
+        """(n,) errors and variances of each push as the others predict it.
+
+        Source: Rasmussen and Williams 2006, equations 5.10 and 5.11.
+        """
+        inverse_tril = solve_triangular(self.scale_tril, np.eye(len(self.outputs)), lower=True)
+        inverse = np.sum(inverse_tril**2, axis=0)
+        return self.weights / inverse, 1.0 / inverse
+
     def extended(self, inputs: Array, outputs: Array) -> 'GaussianProcess':
         """Conditioned on k further pushes at the same hyperparameters, in O(n^2 k).
 
@@ -90,7 +99,7 @@ class GaussianProcess:
         scale_tril = np.zeros((total, total), order='F')
         scale_tril[:n, :n] = self.scale_tril
         scale_tril[n:, :n] = whitened.T
-        scale_tril[n:, n:] = _factor(corner)
+        scale_tril[n:, n:] = factor(corner)
         return GaussianProcess(
             np.vstack((self.inputs, inputs)),
             np.concatenate((self.outputs, outputs)),
@@ -103,7 +112,12 @@ class GaussianProcess:
         return np.asarray(solve_triangular(self.scale_tril, whitened, lower=True, trans='T'))
 
 
-def _factor(covariance: Array) -> Array:
+def factor(covariance: Array) -> Array:
+    """Lower Cholesky factor (n, n) of a covariance, which is used up.
+
+    Raises:
+        RunError: it is singular in double precision.
+    """
     try:
         # the transpose of a symmetric matrix is in the order that LAPACK works on
         factor = cholesky(covariance.T, lower=True, overwrite_a=True, check_finite=False)

@@ -34,7 +34,7 @@ class ModelServer:
 
         Args:
             model: to answer with.
-            max_points: training pushes that it may grow to.
+            max_points: training pushes that it may grow to; see `thinning` for what it keeps.
         """
         self._model = model
         self._max_points = max_points
@@ -69,17 +69,11 @@ class ModelServer:
         """Extends the model at its hyperparameters; it stays as it was if anything is wrong.
 
         Raises:
-            InputError: it cannot learn, would outgrow `max_points`, or the pushes do not fit it.
+            InputError: it cannot learn, or the pushes do not fit it.
             RunError: the pushes make its covariance singular.
         """
         if not isinstance(self._model, GpModel):
             raise InputError('the analytical model does not learn; serve a model file instead')
         if not len(pushes):
             raise InputError('there are no pushes to add')
-        points = len(self._model.pushes) + len(pushes)
-        if points > self._max_points:
-            raise InputError(
-                f'{points} pushes are more than max_points = {self._max_points}; '
-                'train a new model on those that matter'
-            )
-        self._model = self._model.extended(pushes)
+        self._model = self._model.extended(pushes).thinned(self._max_points)

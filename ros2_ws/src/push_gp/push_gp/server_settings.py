@@ -14,7 +14,10 @@ class ServerSettings:
 
     model: str = setting(ANALYTICAL, "path of a model file, or 'analytical' for the motion cone")
     max_points: int = setting(
-        5000, 'training pushes that add_pushes may grow the model to', low=1, high=20_000
+        5000,
+        'training pushes beyond which add_pushes drops the older of the two closest',
+        low=1,
+        high=20_000,
     )
     distance: float = setting(
         NOMINAL_DISTANCE,

@@ -78,12 +78,21 @@ def test_pushes_that_cannot_be_added_leave_the_model_as_it_was(
     server: ModelServer, more_pushes: PushSet
 ) -> None:
     before = server.info.model_hash
-    many = more_pushes.joined(more_pushes)
     other = PushSet(more_pushes.p_y, more_pushes.beta, more_pushes.displacement, 0.01)
-    for pushes, fault in ((NO_PUSHES, 'no pushes'), (many, 'max_points'), (other, 'do not join')):
+    for pushes, fault in ((NO_PUSHES, 'no pushes'), (other, 'do not join')):
         with pytest.raises(InputError, match=fault):
             server.add_pushes(pushes)
     assert server.info.model_hash == before
+
+
+def test_beyond_the_cap_the_older_of_the_closest_pushes_go(
+    server: ModelServer, more_pushes: PushSet
+) -> None:
+    for _ in range(3):
+        server.add_pushes(more_pushes)
+    assert server.info.points == 80
+    answers = server.predict(more_pushes.p_y, more_pushes.beta, want_variance=False)
+    assert np.isfinite(answers.mean).all()
 
 
 def test_the_motion_cone_does_not_learn(more_pushes: PushSet) -> None:
