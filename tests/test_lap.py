@@ -68,6 +68,15 @@ def test_score_and_info_read_the_run(realtime_run: Ended, environment: dict[str,
     assert '/controller_state' in told.out
 
 
+def test_the_commands_computed_again_are_the_recorded_ones(
+    realtime_run: Ended, environment: dict[str, str]
+) -> None:
+    replay = ('ros2', 'run', 'push_bag', 'replay', str(realtime_run.folder), '--recompute')
+    told = Ended.of_command(environment, *replay)
+    assert told.status == 0, told.out + told.err
+    assert 'commands are the same, bit for bit' in told.out
+
+
 def test_two_cells_run_side_by_side_in_namespaces(
     environment: dict[str, str], tmp_path: Path
 ) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 from cell_command import Ended
+from push_bag.recompute import Changes, recomputed
 from push_bag.run_reader import read_run
 from push_msgs.msg import ControllerState
 
@@ -52,6 +53,9 @@ def test_lockstep_repeats_bit_for_bit_on_busy_cores_and_agrees_with_in_process(
     np.testing.assert_array_equal(first, second)
     np.testing.assert_allclose(trajectory(in_process.folder), first, rtol=0.0, atol=1e-9)
     assert not np.array_equal(trajectory(other_seed.folder), first)
+    for run in (busy, in_process):
+        again = recomputed(run.folder, Changes())
+        assert (again.differs.sum(), again.skipped) == (0, 0)
 
 
 def test_the_family_of_modes_decides_the_same_in_both_modes(

@@ -27,5 +27,6 @@ setup(
             'cell = push_bringup.cell:main',
             'parameters = push_bringup.parameters:main',
         ],
+        'push_bag.recompute': ['cell = push_bringup.recompute:recomputed'],
     },
 )

@@ -1,12 +1,11 @@
-"""`push_bag replay RUN`: publishes a bag again, with its recorded timing and QoS."""
+"""`push_bag replay RUN`: publishes a bag again, with its timing and QoS, or recomputes it."""
 
 import argparse
-import heapq
+import itertools
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import rclpy
 from push_core.command_line import Parser, run_command
@@ -14,13 +13,23 @@ from push_core.errors import InputError
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
-from push_bag.message_types import message_class
-from push_bag.qos_text import qos_profile
+from push_bag.playback import Publishers, in_order, play, skipped_to
 from push_bag.reader import BagReader, Record
-from push_bag.topic import Topic
+from push_bag.recompute_command import add_recompute_arguments, recompute
+from push_bag.survey import Survey, survey
 
-REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
 DISCOVERY_TIME = 0.5  # [s] for subscribers to find the publishers before the first message
+EPILOG = """
+examples:
+  ros2 run push_bag replay runs/RUN --rate 2 --start 5
+  ros2 run push_bag replay runs/RUN --topics object_pose pusher_pose --clock
+  ros2 run push_bag replay runs/RUN --recompute
+  ros2 run push_bag replay runs/RUN --recompute --param weights.contact:=100.0 --html overlay.html
+
+--recompute publishes nothing: it gives the recorded poses to the controller and compares what it
+computes with the recorded commands. Nothing changed: status 0 if they are the same bit for bit, 1
+if not. With --controller, --model or --param it says how far the commands lie apart.
+"""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -28,102 +37,51 @@ def main(argv: Sequence[str] | None = None) -> int:
     return run_command(_parser(), _work, argv)
 
 
-def in_order(records: Iterable[Record]) -> Iterator[Record]:
-    """The records by log time, looking only REORDER_NS ahead."""
-    waiting: list[tuple[int, int, Record]] = []
-    for number, record in enumerate(records):
-        heapq.heappush(waiting, (record.log_ns, number, record))
-        while waiting[0][0] < record.log_ns - REORDER_NS:
-            yield heapq.heappop(waiting)[2]
-    while waiting:
-        yield heapq.heappop(waiting)[2]
+def _parser() -> Parser:
+    parser = Parser('Publishes a bag again, with its recorded timing and QoS.', EPILOG)
+    parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    parser.add_argument('--rate', type=float, default=1.0, help='times as fast; default 1')
+    parser.add_argument('--topics', nargs='+', metavar='NAME', help='only these; default all')
+    parser.add_argument('--start', type=float, default=0.0, metavar='S', help='begin S seconds in')
+    parser.add_argument('--loop', action='store_true', help='again and again, until Ctrl-C')
+    parser.add_argument(
+        '--clock', action='store_true', help='publish /clock too, for nodes with use_sim_time'
+    )
+    add_recompute_arguments(parser)
+    return parser
 
 
-def play(
-    records: Iterable[Record],
-    publish: Callable[[Record], None],
-    rate: float,
-    clock: Callable[[], float] = time.monotonic,
-    sleep: Callable[[float], None] = time.sleep,
-) -> int:
-    """Hands each record on at its time after the first one.
-
-    Args:
-        records: by log time.
-        publish: takes one record.
-        rate: how much faster than recorded.
-        clock: seconds of a steady clock.
-        sleep: waits some seconds.
-
-    Returns:
-        Number of records published.
-    """
-    count, start, first_ns = 0, clock(), 0
-    for record in records:
-        first_ns = first_ns or record.log_ns
-        due = start + (record.log_ns - first_ns) * 1e-9 / rate
-        if (wait := due - clock()) > 0:
-            sleep(wait)
-        publish(record)
-        count += 1
-    return count
-
-
-class Publishers:
-    """Publishes raw records on a node, with the types and profiles that the bag states."""
-
-    def __init__(self, node: Node, topics: Iterable[Topic]) -> None:
-        """Creates a publisher for each topic.
-
-        Raises:
-            InputError: a type is not installed, or a profile is not readable.
-        """
-        self._publishers: dict[str, Any] = {
-            topic.name: node.create_publisher(
-                message_class(topic.type_name), topic.name, qos_profile(topic.qos)
-            )
-            for topic in topics
-        }
-
-    def publish(self, record: Record) -> None:
-        """Publishes the bytes of one record."""
-        self._publishers[record.topic.name].publish(record.data)
-
-
-def _topics(path: Path) -> list[Topic]:
-    """All topics of a bag, found by reading it once."""
-    reader = BagReader(path)
-    messages = sum(1 for _ in reader.records())
-    if not messages:
-        raise InputError(f'{reader.path} holds no messages')
-    return list(reader.topics.values())
-
-
-def _work(arguments: argparse.Namespace) -> None:
+def _work(arguments: argparse.Namespace) -> int:
+    if arguments.recompute:
+        return recompute(arguments)
     if not arguments.rate > 0:
         raise InputError(f'--rate must be above 0, not {arguments.rate:g}')
-    topics = _topics(arguments.run)
+    if arguments.start < 0:
+        raise InputError(f'--start must not be below 0, not {arguments.start:g}')
+    found = survey(arguments.run, arguments.topics)
     # Ctrl-C stays Python's: it ends the wait for the next message
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        _replay(rclpy.create_node('replay'), topics, arguments)
+        _replay(rclpy.create_node('replay'), found, arguments)
     finally:
         rclpy.try_shutdown()
+    return 0
 
 
-def _replay(node: Node, topics: list[Topic], arguments: argparse.Namespace) -> None:
-    publishers = Publishers(node, topics)
+def _replay(node: Node, found: Survey, arguments: argparse.Namespace) -> None:
+    publishers = Publishers(node, found.topics.values(), arguments.clock)
     time.sleep(DISCOVERY_TIME)
-    records = in_order(BagReader(arguments.run).records())
-    count = play(records, publishers.publish, arguments.rate)
-    sys.stdout.write(f'{count} messages on {len(topics)} topics replayed\n')
+    for _ in itertools.count() if arguments.loop else range(1):
+        records = _records(arguments, found)
+        count = play(records, publishers.publish, arguments.rate, found.seconds - arguments.start)
+        sys.stdout.write(f'{count} messages on {len(found.topics)} topics replayed\n')
+        sys.stdout.flush()
 
 
-def _parser() -> Parser:
-    parser = Parser('Publishes a bag again, with its recorded timing and quality of service.')
-    parser.add_argument('run', type=Path, help='run folder or MCAP file')
-    parser.add_argument('--rate', type=float, default=1.0, help='times as fast; default 1')
-    return parser
+def _records(arguments: argparse.Namespace, found: Survey) -> Iterator[Record]:
+    reader = BagReader(arguments.run)
+    begin = found.first_ns + round(arguments.start * 1e9)
+    return skipped_to(begin, in_order(reader.records(found.topics)))
 
 
 if __name__ == '__main__':

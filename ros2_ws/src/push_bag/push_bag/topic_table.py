@@ -55,13 +55,22 @@ class TopicTable:
         Raises:
             InputError: a message is not of its topic's type.
         """
+        rows = self.in_file_order()
+        _, first = np.unique(rows.stamp, return_index=True)
+        return Stamped(rows.stamp[first], rows.published[first], rows.values[first])
+
+    def in_file_order(self) -> Stamped:
+        """All messages as they came, whatever their stamps.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
         self._decode()
         stamp, published, values = (
             np.concatenate([getattr(block, name) for block in self._blocks])
             for name in ('stamp', 'published', 'values')
         )
-        _, first = np.unique(stamp, return_index=True)
-        return Stamped(stamp[first], published[first], values[first])
+        return Stamped(stamp, published, values)
 
     def _begin(self, topic: Topic) -> None:
         self._decode()

@@ -5,10 +5,12 @@ import time
 import pytest
 import rclpy
 from push_bag.cell_topics import CELL_TOPICS
+from push_bag.playback import Publishers, in_order, play, skipped_to
 from push_bag.qos_text import qos_profile, qos_text
 from push_bag.raw_subscription import RawSubscription
 from push_bag.reader import BagReader, Record
-from push_bag.replay import Publishers, in_order, main, play
+from push_bag.replay import main
+from push_bag.survey import survey
 from push_bag.topic import Topic
 from push_core.errors import InputError
 from rclpy.qos import HistoryPolicy, QoSProfile
@@ -39,7 +41,7 @@ def record(log_ns):
 def test_records_are_published_at_their_time_after_the_first(perfect, rate):
     clock, sent = Clock(), []
     records = list(in_order(BagReader(perfect).records()))
-    count = play(records, lambda _: sent.append(clock.now), rate, clock, clock.sleep)
+    count = play(records, lambda _: sent.append(clock.now), rate, 1.0, clock, clock.sleep)
     assert count == len(records)
     expected = [100.0 + (each.log_ns - records[0].log_ns) * 1e-9 / rate for each in records]
     assert sent == pytest.approx(expected, abs=1e-6)
@@ -87,7 +89,7 @@ def test_a_subscriber_receives_the_recorded_bytes(perfect):
             name: RawSubscription(listener, name, topic.type_name, qos_profile(topic.qos))
             for name, topic in topics.items()
         }
-        play(records, publishers.publish, rate=10.0)
+        play(records, publishers.publish, rate=10.0, seconds=1.0)
         time.sleep(0.2)
         received = {name: [taken.data for taken in ear.take_all()] for name, ear in ears.items()}
         listener.destroy_node()
@@ -96,3 +98,19 @@ def test_a_subscriber_receives_the_recorded_bytes(perfect):
         rclpy.shutdown()
     for name in names:
         assert received[name] == [each.data for each in records if each.topic.name == name]
+
+
+def test_only_the_named_topics_are_found(perfect):
+    found = survey(perfect, ['object_pose', '/model_info'])
+    assert set(found.topics) == {'/object_pose', '/model_info'}
+    with pytest.raises(InputError, match='no topic nonsense'):
+        survey(perfect, ['nonsense'])
+
+
+def test_what_is_latched_is_not_skipped_with_the_time_before_the_start(perfect):
+    found = survey(perfect, None)
+    begin = found.first_ns + 500_000_000
+    records = list(skipped_to(begin, in_order(BagReader(perfect).records())))
+    assert min(each.log_ns for each in records) >= begin
+    assert [each.topic.name for each in records[:2]] == ['/nominal_trajectory', '/model_info']
+    assert records[2].log_ns < begin + 10_000_000

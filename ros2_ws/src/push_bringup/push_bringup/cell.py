@@ -97,8 +97,7 @@ def work(arguments: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix='push_cell_') as scratch:
         inputs = Path(scratch)
         parameters = resolved(request, installed_config('cell.yaml'), folder, inputs)
-        planned(parameters.mpc)
-        write_inputs(request, parameters, inputs)
+        write_inputs(request, parameters, planned(parameters.mpc), inputs)
         reason = _run(request, parameters, inputs)
         keep_logs(inputs, folder)
     return _finish(folder, reason)

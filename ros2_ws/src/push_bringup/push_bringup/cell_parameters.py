@@ -61,23 +61,40 @@ def resolved(request: Request, defaults: Path, folder: Path, inputs: Path) -> Ce
     Raises:
         InputError: an unknown parameter, or a value out of range.
     """
-    values = _from_file(defaults)
+    values = _from_text(defaults.read_text(encoding='utf-8'))
     for node, changes in _from_request(request, folder, inputs).items():
         values[node].update(changes)
     return _checked(values, request.overrides)
 
 
-def _from_file(path: Path) -> dict[str, dict[str, Any]]:
-    blocks = yaml.safe_load(path.read_text(encoding='utf-8'))
+def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParameters:
+    """The parameters of a recorded run.
+
+    Args:
+        text: what `as_yaml` gave then.
+        overrides: what shall differ, by NAME or NODE.NAME.
+
+    Raises:
+        InputError: the text is no parameter file, a parameter is unknown, or a value out of range.
+    """
+    try:
+        return _checked(_from_text(text), overrides)
+    except (yaml.YAMLError, AttributeError) as error:
+        raise InputError(f'the recorded parameters are not readable: {error}') from None
+
+
+def _from_text(text: str) -> dict[str, dict[str, Any]]:
+    blocks = yaml.safe_load(text)
     return {node: dict(blocks.get(f'/**/{node}', {}).get('ros__parameters', {})) for node in NODES}
 
 
 def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dict[str, Any]]:
     mode = 'lockstep' if request.mode == 'inprocess' else request.mode
     common = {'profile': request.profile, 'mode': mode}
-    attachments = [inputs / 'params.yaml']
-    if request.controller == 'gp':
-        attachments.append(Path(request.model))
+    attachments = [inputs / 'params.yaml', inputs / 'nominal_trajectory.csv']
+    # what the parameters only name
+    named = (Path(request.model), Path(request.track))
+    attachments += [path for path in named if path.suffix and path.is_file()]
     return {
         'sim_node': {**common, 'seed': request.seed, 'perturbation.kind': request.perturb},
         'gp_server': {'model': request.model},

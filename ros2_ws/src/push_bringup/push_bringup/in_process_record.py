@@ -51,8 +51,12 @@ class InProcessRecord:
         for disturbance in self._plant.take_disturbances():
             happened = to_stamp(nanoseconds(disturbance.time))
             self._write('perturbation', sim.perturbation_message(disturbance, happened))
-        self._write_command(tick, stamp_ns)
-        self._write_state(tick, stamp_ns, tick_ms)
+        self.told(tick, stamp_ns, tick_ms)
+
+    def told(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+        """What the controller sends and tells, with a stamp [ns]."""
+        self._write_command(tick, stamp)
+        self._write_state(tick, stamp, tick_ms)
 
     def _write_command(self, tick: Tick, stamp: int) -> None:
         if tick.mode != Mode.IDLE:

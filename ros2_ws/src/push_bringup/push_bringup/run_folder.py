@@ -9,11 +9,17 @@ from datetime import datetime, timezone
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+import numpy as np
 from push_core.errors import InputError
+from push_gp.analytical_model import ANALYTICAL
+from push_gp.sealed_archive import read_sealed
+from push_mpc.nominal import Plan
 
 from push_bringup.cell_parameters import CellParameters
 from push_bringup.request import Request
 
+PLAN_FILE = 'nominal_trajectory.csv'
+PLAN_COLUMNS = 't_s,x_m,y_m,theta_rad,p_y_m,v_n_m_s,v_t_m_s'
 _RECORDED_VERSIONS = ('numpy', 'scipy', 'osqp', 'pybullet', 'mcap', 'rclpy')
 
 
@@ -43,8 +49,10 @@ def _unused(folder: Path) -> Path:
     return found
 
 
-def write_inputs(request: Request, parameters: CellParameters, inputs: Path) -> None:
+def write_inputs(request: Request, parameters: CellParameters, plan: Plan, inputs: Path) -> None:
     """Writes the files that the recorder keeps with the run into a folder."""
+    columns = np.column_stack([plan.time, plan.state, plan.input])
+    np.savetxt(inputs / PLAN_FILE, columns, '%.9g', ',', header=PLAN_COLUMNS, comments='')
     (inputs / 'params.yaml').write_text(parameters.as_yaml(), encoding='utf-8')
     (inputs / 'facts.json').write_text(json.dumps(facts(request), indent=1), encoding='utf-8')
 
@@ -75,6 +83,18 @@ def facts(request: Request) -> dict[str, str]:
         'python': platform.python_version(),
         'versions': json.dumps(versions),
         'git_revision': _git_revision(),
+        **_model_facts(request.model),
+    }
+
+
+def _model_facts(model: str) -> dict[str, str]:
+    """What names model and training set for good."""
+    if model == ANALYTICAL:
+        return {'model_hash': ANALYTICAL, 'training_set_hash': ''}
+    header, _ = read_sealed(Path(model))
+    return {
+        'model_hash': str(header.get('model_sha256', '')),
+        'training_set_hash': str(header.get('training_set_sha256', '')),
     }
 
 

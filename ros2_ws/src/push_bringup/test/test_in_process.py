@@ -48,11 +48,12 @@ def test_the_bag_holds_what_is_needed_to_repeat_the_run(model_file, tmp_path, ca
     (path,) = folder.glob('*.mcap')
     with path.open('rb') as stream:
         reader = make_reader(stream)
-        (facts,) = (record.metadata for record in reader.iter_metadata())
+        (facts,) = (record.metadata for record in reader.iter_metadata() if record.name == 'run')
         attached = {attachment.name: attachment.data for attachment in reader.iter_attachments()}
     assert facts['profile'] == 'irb120'
     assert set(json.loads(facts['versions'])) >= {'numpy', 'osqp', 'pybullet'}
-    assert set(attached) == {'params.yaml', model_file.name}
+    assert set(attached) == {'params.yaml', 'nominal_trajectory.csv', model_file.name}
+    assert facts['training_set_hash']
     assert attached[model_file.name] == model_file.read_bytes()
 
 

@@ -55,6 +55,8 @@ class Tick:
     mode: Mode
     velocity: Array
     reference_time: float = -math.inf
+    exposure: float = math.nan
+    now: float = math.nan
     state: Array | None = None
     predicted: Array | None = None
     reference: Array | None = None
@@ -119,7 +121,7 @@ class Controller:
     def hold(self, now: float) -> Tick:
         """Zero velocity at a time [s] for want of a fresh pose; the next one goes on."""
         self._remember(_STILL, now)
-        return Tick(Mode.HOLDING, _STILL, input=_STILL)
+        return Tick(Mode.HOLDING, _STILL, now=now, input=_STILL)
 
     def resume(self) -> None:
         """Releases a stop."""
@@ -139,6 +141,11 @@ class Controller:
         Returns:
             What to send and what there is to say about it.
         """
+        tick = self._step(object_pose, tip, exposure, now)
+        tick.exposure, tick.now = exposure, now
+        return tick
+
+    def _step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
             self.stop('a pose is not finite, or beyond all bounds')
             return Tick(self.mode, _STILL, input=_STILL)

@@ -43,6 +43,7 @@ def fill_state(message: ControllerState, tick: Tick) -> None:
     unknown = (math.nan,) * 4
     message.mode = int(tick.mode)
     message.reference_time = tick.reference_time
+    message.exposure, message.now = tick.exposure, tick.now
     message.state = unknown if tick.state is None else tick.state
     message.predicted = unknown if tick.predicted is None else tick.predicted
     message.reference = unknown if tick.reference is None else tick.reference

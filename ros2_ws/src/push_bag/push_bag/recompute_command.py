@@ -1,0 +1,57 @@
+"""`push_bag replay RUN --recompute`: its arguments, and what it says."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from push_core.atomic_file import write_atomically
+from push_core.command_line import Parser
+from push_core.errors import InputError
+
+from push_bag.recompute import Changes, recomputed
+from push_bag.yaml_text import parameter_value
+
+
+def add_recompute_arguments(parser: Parser) -> None:
+    """Adds what `recompute` reads."""
+    group = parser.add_argument_group('recomputing')
+    group.add_argument('--recompute', action='store_true', help='compute the commands again')
+    group.add_argument('--controller', choices=('gp', 'analytical'), default='')
+    group.add_argument('--model', type=Path, metavar='FILE', help='another model file')
+    group.add_argument(
+        '-p',
+        '--param',
+        action='append',
+        default=[],
+        metavar='NAME:=VALUE',
+        help='another value of a parameter, as NAME or NODE.NAME; repeatable',
+    )
+    group.add_argument('--html', type=Path, metavar='FILE', help='draw both over time')
+
+
+def recompute(arguments: argparse.Namespace) -> int:
+    """Compares recorded with recomputed commands.
+
+    Returns:
+        1 if nothing was changed and yet a command differs, else 0.
+
+    Raises:
+        InputError: the bag lacks what the controller needs, or a change is not possible.
+    """
+    params = dict(_param(text) for text in arguments.param)
+    changes = Changes(arguments.controller, arguments.model, params)
+    found = recomputed(arguments.run, changes)
+    if arguments.html is not None:
+        # plotly takes a second to import: only who asks for a figure waits for it
+        from push_bag.command_figure import command_page  # noqa: PLC0415
+
+        write_atomically(arguments.html, command_page(found).encode())
+    sys.stdout.write(found.text())
+    return int(not changes.any and bool(found.skipped or found.differs.any()))
+
+
+def _param(text: str) -> tuple[str, object]:
+    name, separator, value = text.partition(':=')
+    if not (name and separator and value):
+        raise InputError(f'-p {text}: write it as NAME:=VALUE')
+    return name, parameter_value(value)

@@ -1,0 +1,164 @@
+"""Computes the commands of a recorded run again, from its poses, with its controller or another.
+
+The controller is given exactly what it was given then: each pair of poses, the times that it knew,
+the model from the tick on at which it took it, starts and stops. What was sent then stays what it
+keeps in mind, for that is what moved the tip: another controller is asked what it would have sent
+next, at each tick anew.
+"""
+
+import math
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from push_bag.recompute import Changes, Recomputed
+from push_core.errors import InputError
+from push_core.frames import Array
+from push_gp.analytical_model import ANALYTICAL
+from push_gp.model import PushModel
+from push_gp.model_source import model_named
+from push_mpc.controller import Controller, Mode
+from push_mpc.planning import planned
+from tqdm import tqdm
+
+from push_bringup.cell_parameters import CellParameters, recorded_parameters
+from push_bringup.in_process import tabulated
+from push_bringup.recorded_ticks import RecordedRun, RecordedTick
+
+PARAMS_FILE = 'params.yaml'
+
+
+def recomputed(path: Path, changes: Changes) -> Recomputed:
+    """The commands of a run, recorded and computed again.
+
+    Args:
+        path: run folder or MCAP file.
+        changes: what shall differ from the recorded run.
+
+    Raises:
+        InputError: the bag lacks parameters, model or track, or a change is not possible.
+    """
+    run = RecordedRun(path)
+    with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
+        files = _unpacked(run, Path(scratch))
+        parameters = _parameters(run, changes, files)
+        model = model_named(parameters.gp.model, parameters.gp.slider)
+        shadow = Shadow(parameters, model, changes.any)
+    return _compared(run, shadow)
+
+
+class Shadow(Controller):
+    """A controller that computes what it would send and keeps in mind what was sent instead."""
+
+    def __init__(self, parameters: CellParameters, model: PushModel, other_model: bool) -> None:
+        """Plans anew, from the parameters.
+
+        Args:
+            parameters: of the cell.
+            model: the one model that it knows.
+            other_model: whether that may be another than the recorded one.
+        """
+        mpc = parameters.mpc
+        super().__init__(mpc, mpc.slider, planned(mpc))
+        self._known_as = '' if other_model else model.info.model_id
+        self._recorded_id = ''
+        self._ready = self.prepared(tabulated(model, mpc.slider.side), model.info.model_id)
+        self._was_sent: Array | None = None
+
+    def answer(self, tick: RecordedTick) -> Array | None:
+        """What it sends at a recorded tick (2,) [m/s]; None where nothing can be computed."""
+        self._prepare_for(tick)
+        self._was_sent = tick.velocity
+        if math.isnan(tick.exposure):
+            return self._without_poses(tick)
+        if tick.object_pose is None or tick.tip is None:
+            return None
+        velocity = self.step(tick.object_pose, tick.tip, tick.exposure, tick.now).velocity
+        self.prepare_next()
+        return velocity
+
+    def _remember(self, velocity: Array, now: float) -> None:
+        super()._remember(velocity if self._was_sent is None else self._was_sent, now)
+
+    def _prepare_for(self, tick: RecordedTick) -> None:
+        """Takes the model and starts, where the recorded controller had done so."""
+        if tick.model_id != self._recorded_id:
+            self._take_model(tick.model_id)
+        begins = tick.mode == Mode.ARMED and self.mode != Mode.ARMED
+        if begins or (tick.mode == Mode.IDLE and self.mode == Mode.STOPPED):
+            self.resume()
+        if begins:
+            self.arm()
+
+    def _take_model(self, recorded_id: str) -> None:
+        if self._known_as not in ('', recorded_id):
+            raise InputError(
+                f'the run used model {recorded_id}, the bag holds {self._known_as}; '
+                'name a model file with --model'
+            )
+        self._recorded_id = recorded_id
+        self.use(self._ready)
+
+    def _without_poses(self, tick: RecordedTick) -> Array:
+        if tick.mode == Mode.STOPPED:
+            self.stop(tick.stop_reason)
+            return np.zeros(2)
+        return self.hold(tick.now).velocity
+
+
+def _compared(run: RecordedRun, shadow: Shadow) -> Recomputed:
+    stamps, recorded, computed, skipped = [], [], [], 0
+    for tick in tqdm(run.ticks(), total=len(run), unit='tick', desc='recomputing', disable=None):
+        velocity = shadow.answer(tick)
+        if tick.velocity is None or tick.mode == Mode.IDLE:
+            continue
+        if velocity is None:
+            skipped += 1
+            continue
+        stamps.append(tick.stamp)
+        recorded.append(tick.velocity)
+        computed.append(np.array(velocity))
+    return Recomputed(
+        np.array(stamps, np.int64),
+        np.array(recorded, np.float64).reshape(-1, 2),
+        np.array(computed, np.float64).reshape(-1, 2),
+        skipped,
+    )
+
+
+def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:
+    """The attachments as files, by name."""
+    files = {}
+    for name, data in run.reader.attachments.items():
+        files[Path(name).name] = folder / Path(name).name
+        files[Path(name).name].write_bytes(data)
+    return files
+
+
+def _parameters(run: RecordedRun, changes: Changes, files: dict[str, Path]) -> CellParameters:
+    """The parameters of the run with the changes, and its files where they are now."""
+    if PARAMS_FILE not in files:
+        raise InputError(f'{run.reader.path} holds no {PARAMS_FILE}: who made it is not known')
+    text = files[PARAMS_FILE].read_text(encoding='utf-8')
+    overrides = dict(changes.params)
+    if changes.controller:
+        overrides['mpc_node.controller'] = changes.controller
+    parameters = recorded_parameters(text, overrides)
+    track = files.get(Path(parameters.mpc.track).name, parameters.mpc.track)
+    return replace(
+        parameters,
+        gp=replace(parameters.gp, model=_model(parameters.gp.model, changes, files)),
+        mpc=replace(parameters.mpc, track=str(track)),
+    )
+
+
+def _model(recorded: str, changes: Changes, files: dict[str, Path]) -> str:
+    """Name of the model: that of the run, unless the controller was changed to the analytical."""
+    if changes.model is not None:
+        return str(changes.model)
+    if changes.controller == ANALYTICAL:
+        return ANALYTICAL
+    if changes.controller and recorded == ANALYTICAL:
+        raise InputError('name a model file for --controller gp with --model')
+    return str(files.get(Path(recorded).name, recorded))

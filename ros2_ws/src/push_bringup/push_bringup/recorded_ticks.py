@@ -1,0 +1,130 @@
+"""The ticks of a recorded controller: what it knew at each of them, and what it sent."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from push_bag.cdr_columns import Columns
+from push_bag.cell_topics import short_name
+from push_bag.conversions import (
+    POSE_FIELDS,
+    STAMP,
+    TWIST_FIELDS,
+    planar_poses,
+    positions,
+    velocities,
+)
+from push_bag.reader import BagReader
+from push_bag.series import Stamped
+from push_bag.topic_table import TopicTable
+from push_core.errors import InputError
+from push_core.frames import Array
+
+TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
+
+
+@dataclass(frozen=True)
+class RecordedTick:
+    """One tick.
+
+    Attributes:
+        stamp: of its command [ns].
+        mode: of the controller afterwards.
+        exposure: of the poses [s]; NaN where it answered none.
+        now: when it was computed [s].
+        model_id: of the model in use.
+        stop_reason: why it stopped; empty if it did not.
+        object_pose: (3,) as measured; None where it answered none, or the bag lacks it.
+        tip: (2,) as measured; None likewise.
+        velocity: (2,) as sent; None where nothing was.
+    """
+
+    stamp: int
+    mode: int
+    exposure: float
+    now: float
+    model_id: str
+    stop_reason: str
+    object_pose: Array | None
+    tip: Array | None
+    velocity: Array | None
+
+
+class RecordedRun:
+    """A bag read as ticks.
+
+    Attributes:
+        reader: of the bag; its facts and attachments are complete.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Reads the bag.
+
+        Raises:
+            InputError: there is no readable bag, or no tick of a controller in it.
+        """
+        self.reader = BagReader(path)
+        self._names: list[tuple[str, str]] = []
+        tables = {
+            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
+            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
+            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
+            'controller_state': TopicTable(TICK_FIELDS, 3, self._tick_values),
+        }
+        for record in self.reader.records():
+            table = tables.get(short_name(record.topic.name))
+            if table is not None:
+                table.add(record)
+        rows = {name: table.in_file_order() for name, table in tables.items()}
+        self._states = rows.pop('controller_state')
+        self._by_stamp = {name: ByStamp(each) for name, each in rows.items()}
+        if not self._states.stamp.size:
+            raise InputError(f'{path} holds no ticks of a controller')
+
+    def ticks(self) -> Iterator[RecordedTick]:
+        """All ticks in the order in which they were computed."""
+        for row in np.argsort(self._states.published, kind='stable').tolist():
+            yield self._tick(row)
+
+    def __len__(self) -> int:
+        return self._states.stamp.size
+
+    def _tick(self, row: int) -> RecordedTick:
+        stamp, told = int(self._states.stamp[row]), int(self._states.published[row])
+        mode, exposure, now = self._states.values[row].tolist()
+        found = {name: table.before(stamp, told) for name, table in self._by_stamp.items()}
+        model_id, stop_reason = self._names[row]
+        return RecordedTick(
+            stamp=stamp,
+            mode=int(mode),
+            exposure=exposure,
+            now=now,
+            model_id=model_id,
+            stop_reason=stop_reason,
+            object_pose=found['object_pose'],
+            tip=found['pusher_pose'],
+            velocity=found['pusher_velocity_cmd'],
+        )
+
+    def _tick_values(self, columns: Columns) -> Array:
+        self._names += zip(columns['model_id'], columns['stop_reason'], strict=True)
+        return np.column_stack([columns['mode'], columns['exposure'], columns['now']])
+
+
+class ByStamp:
+    """The messages of a topic by their stamp; a plant that starts anew uses stamps again."""
+
+    def __init__(self, rows: Stamped) -> None:
+        self._rows = rows
+        self._places: dict[int, list[int]] = {}
+        for row, stamp in enumerate(rows.stamp.tolist()):
+            self._places.setdefault(stamp, []).append(row)
+
+    def before(self, stamp: int, time: int) -> Array | None:
+        """The last values with a stamp [ns] that were published by a time [ns]."""
+        rows = self._places.get(stamp)
+        if not rows:
+            return None
+        published = [row for row in rows if self._rows.published[row] <= time]
+        return np.asarray(self._rows.values[(published or rows[:1])[-1]])
