@@ -18,6 +18,7 @@ setup(
         'console_scripts': [
             'gp_server = push_gp.gp_server:main',
             'train = push_gp.train:main',
+            'curve = push_gp.curve:main',
             'evaluate = push_gp.evaluate:main',
         ],
     },

@@ -9,6 +9,7 @@ from push_core.frames import Array
 from push_core.push_set import PushSet
 
 from push_gp.gp_model import GpModel
+from push_gp.model import PushModel
 
 
 @dataclass(frozen=True)
@@ -24,8 +25,13 @@ class Calibration:
     coverage_95: Array
 
 
-def calibration(model: GpModel, pushes: PushSet) -> Calibration:
-    """Compares the model's distribution of a measurement with measured pushes."""
+def calibration(model: PushModel, pushes: PushSet) -> Calibration | None:
+    """Compares the model's distribution of a measurement with measured pushes.
+
+    None where it has no distribution.
+    """
+    if not isinstance(model, GpModel):
+        return None
     predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
     variance = model.variance(pushes.p_y, pushes.beta) + model.noise_variance
     squared = (predicted - pushes.displacement) ** 2 / variance

@@ -10,9 +10,11 @@ import numpy as np
 from push_core.accuracy import OUTPUTS, READABLE
 from push_core.command_line import Parser, run_command
 from push_core.frames import Array
+from push_core.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.push_csv import read_pushes
 
-from push_gp.evaluation import Evaluation, evaluation
+from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluation, rollout_evaluation
+from push_gp.model import PushModel
 from push_gp.model_source import model_named
 
 
@@ -23,20 +25,54 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    arguments = Parser('Compares a model with a file of measured pushes.')
+    arguments = Parser(
+        'Compares a model with a file of measured pushes.',
+        epilog='Short pushes are those that `train` takes; for long ones (columns x0_m, y0_m, '
+        'theta0_rad, …)\nthe model is rolled out step by step and compared with where they ended.',
+    )
     arguments.prog = 'push_gp evaluate'
     arguments.add_argument('model', help="a model file, or 'analytical' for the motion cone")
     arguments.add_argument('data', type=Path, help='CSV file of pushes to compare with')
     arguments.add_argument('--json', action='store_true', help='one JSON object and nothing else')
+    arguments.add_argument('--html', metavar='FILE', type=Path, help='write a page of pictures')
     return arguments
 
 
 def work(arguments: argparse.Namespace) -> None:
     """Evaluates and says what came out."""
     model = model_named(arguments.model)
-    found = evaluation(model, read_pushes(arguments.data))
-    text = json.dumps(found.as_json(), indent=2) if arguments.json else '\n'.join(_table(found))
-    sys.stdout.write(f'{text}\n')
+    told = (_told_long if holds_long_pushes(arguments.data) else _told)(model, arguments)
+    sys.stdout.write(f'{told}\n')
+
+
+def _told(model: PushModel, arguments: argparse.Namespace) -> str:
+    pushes = read_pushes(arguments.data)
+    found = evaluation(model, pushes)
+    if arguments.html:
+        # drawing takes a second to import: only who wants pictures waits for it
+        from push_gp.evaluation_page import write_evaluation_page  # noqa: PLC0415
+
+        write_evaluation_page(arguments.html, model, pushes, list(_table(found)))
+    return json.dumps(found.as_json(), indent=2) if arguments.json else '\n'.join(_table(found))
+
+
+def _told_long(model: PushModel, arguments: argparse.Namespace) -> str:
+    found = rollout_evaluation(model, read_long_pushes(arguments.data))
+    if arguments.html:
+        from push_gp.rollout_page import write_rollout_page  # noqa: PLC0415
+
+        write_rollout_page(arguments.html, found, list(_rollout_table(found)))
+    if arguments.json:
+        return json.dumps(found.as_json(), indent=2)
+    return '\n'.join(_rollout_table(found))
+
+
+def _rollout_table(found: RolloutEvaluation) -> Iterator[str]:
+    figures = found.as_json()
+    yield f'model {found.model_id} rolled out along {figures["n"]} pushes; mean error at the end'
+    for name, block in figures['rollout'].items():
+        error = f'{block["mean_mm"]:6.2f} mm {block["mean_deg"]:6.2f} deg' if block['n'] else ''
+        yield f'{name.replace("_", " "):10}{block["n"]:5d} pushes {error}'
 
 
 def _table(found: Evaluation) -> Iterator[str]:

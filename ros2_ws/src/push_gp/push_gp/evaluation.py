@@ -7,11 +7,13 @@ import numpy as np
 from push_core.accuracy import Accuracy, accuracy, per_output
 from push_core.errors import InputError
 from push_core.frames import Array
+from push_core.long_pushes import EndErrors, LongPushes
 from push_core.push_set import PushSet
 
 from push_gp.calibration import Calibration, calibration
 from push_gp.gp_model import GpModel
 from push_gp.model import PushModel
+from push_gp.rollout import rolled_out
 
 
 @dataclass(frozen=True)
@@ -33,10 +35,43 @@ class Evaluation:
     def as_json(self) -> dict[str, Any]:
         """The block of accuracy figures with `nlpd` and `coverage_95` (null without variances)."""
         block: dict[str, Any] = {**self.accuracy.as_json(), 'nlpd': None, 'coverage_95': None}
-        if self.calibration:
+        if self.calibration is not None:
             block['nlpd'] = per_output(self.calibration.nlpd)
             block['coverage_95'] = per_output(self.calibration.coverage_95)
         return {'model': self.model_id, **block, 'trained_on': self.trained_on}
+
+
+@dataclass(frozen=True)
+class RolloutEvaluation:
+    """Figures of a model rolled out along long pushes.
+
+    Attributes:
+        model_id: of the model.
+        pushes: measured.
+        errors: of the end poses of the model.
+    """
+
+    model_id: str
+    pushes: LongPushes
+    errors: EndErrors
+
+    def as_json(self) -> dict[str, Any]:
+        """End errors of the pushes that stay on the face, and of all."""
+        everything = np.ones(len(self.pushes), dtype=bool)
+        return {
+            'model': self.model_id,
+            'n': len(self.pushes),
+            'rollout': {
+                'on_face': self.errors.of(self.pushes.on_face),
+                'all': self.errors.of(everything),
+            },
+        }
+
+
+def rollout_evaluation(model: PushModel, pushes: LongPushes) -> RolloutEvaluation:
+    """Compares a model, step by step, with where long pushes ended."""
+    errors = pushes.errors(rolled_out(model, pushes))
+    return RolloutEvaluation(model.info.model_id, pushes, errors)
 
 
 def evaluation(model: PushModel, pushes: PushSet) -> Evaluation:
@@ -52,9 +87,7 @@ def evaluation(model: PushModel, pushes: PushSet) -> Evaluation:
         )
     predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
     told = accuracy(predicted, pushes)
-    if not isinstance(model, GpModel):
-        return Evaluation(model.info.model_id, told, None, 0)
-    shared = _shared(model.pushes, pushes)
+    shared = _shared(model.pushes, pushes) if isinstance(model, GpModel) else 0
     return Evaluation(model.info.model_id, told, calibration(model, pushes), shared)
 
 

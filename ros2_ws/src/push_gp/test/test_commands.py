@@ -2,9 +2,10 @@ import json
 from pathlib import Path
 
 import pytest
+from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
 from push_core.push_csv import write_pushes
 from push_core.push_set import PushSet
-from push_gp import evaluate, train
+from push_gp import curve, evaluate, train
 from push_gp.model_file import load_model
 
 Capture = pytest.CaptureFixture[str]
@@ -109,3 +110,60 @@ def test_evaluate_refuses_pushes_of_another_distance(
 def test_evaluate_refuses_a_file_of_pushes_as_a_model(data: Path, capsys: Capture) -> None:
     assert evaluate.main([str(data), str(data)]) == 2
     assert 'no model file' in capsys.readouterr().err
+
+
+@pytest.fixture
+def long_data(tmp_path: Path) -> Path:
+    """Two pushes along the inward normal: through the centre, and off the end of the face."""
+    rows = ['0,0,0,0.05,0,0,-0.04975,0,0.00025,0', '0,0,0,0.03,-0.03,1,-0.04975,0.03,0.00025,0.03']
+    (tmp_path / 'long.csv').write_text('\n'.join([','.join(LONG_COLUMNS), *rows]) + '\n')
+    return tmp_path / 'long.csv'
+
+
+def test_evaluate_rolls_a_model_out_along_long_pushes(long_data: Path, capsys: Capture) -> None:
+    assert evaluate.main(['analytical', str(long_data), '--json']) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told['n'] == 2
+    assert told['rollout']['on_face']['n'] == 1
+    assert told['rollout']['on_face']['mean_mm'] < 1e-6
+    assert told['rollout']['all']['mean_deg'] > 1.0
+
+
+@pytest.mark.parametrize('which', ['short', 'long'])
+def test_evaluate_draws_a_page_that_needs_no_server(
+    data: Path, long_data: Path, which: str
+) -> None:
+    page = data.parent / 'page.html'
+    pushes = data if which == 'short' else long_data
+    assert evaluate.main([str(trained(data)), str(pushes), '--html', str(page)]) == 0
+    text = page.read_text(encoding='utf-8')
+    assert '<script src=' not in text
+    assert text.count('Plotly.newPlot(') == (3 if which == 'short' else 1)
+
+
+def test_curve_says_how_the_error_falls_with_the_pushes(data: Path, capsys: Capture) -> None:
+    page = data.parent / 'curve.html'
+    options = ['--seeds', '2', '--points', '5', '30', '500', '--html', str(page), '--json']
+    assert curve.main([str(data), *options]) == 0
+    points = json.loads(capsys.readouterr().out)['points']
+    assert [(point['n'], point['method']) for point in points] == [
+        (size, method) for size in (5, 30) for method in ('zero', 'analytical', 'limit_surface')
+    ]
+    median = {
+        (point['n'], point['method']): point['nmse_push_frame']['median'] for point in points
+    }
+    assert median[30, 'zero'] < 0.5 * median[5, 'zero']
+    assert all(len(point['nmse_push_frame']['seeds']) == 2 for point in points)
+    assert 'GP over the fitted motion cone' in page.read_text(encoding='utf-8')
+
+
+@pytest.mark.parametrize(
+    ('options', 'fault'), [(['--seeds', '0'], 'at least 1'), (['--points', '60'], 'too few')]
+)
+def test_a_wrong_curve_command_is_one_line_and_status_2(
+    options: list[str], fault: str, data: Path, capsys: Capture
+) -> None:
+    assert curve.main([str(data), *options]) == 2
+    shown = capsys.readouterr().err
+    assert fault in shown
+    assert shown.count('\n') == 1
