@@ -1,4 +1,4 @@
-"""The bodies of the PyBullet world: table, slider and tip.
+"""The moving bodies of the PyBullet world: slider and tip.
 
 - The slider is a box on four feet that stand on a circle, not on its corners: that gives the
   friction moment of the measured limit surface.
@@ -11,8 +11,9 @@
   of a sticking contact to one direction.
 """
 
-import math
+from collections.abc import Sequence
 
+from push_core.actuator import Pair
 from push_core.limit_surface import GRAVITY
 from push_core.slider import Slider
 
@@ -27,24 +28,10 @@ _FOOT_RADIUS = 0.001
 _TIP_MASS = 1e6
 
 
-def make_table(client: int, settings: WorldSettings) -> int:
-    """The table, a plane at height zero; it holds the springs of the feet that stand on it."""
-    plane = pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=client)
-    table = _make_body(client, 0.0, plane, settings.friction_ground)
-    pybullet.changeDynamics(
-        table,
-        -1,
-        contactStiffness=settings.stiffness,
-        contactDamping=settings.damping,
-        physicsClientId=client,
-    )
-    return table
-
-
-def make_object(client: int, settings: WorldSettings, slider: Slider) -> int:
-    """The slider."""
-    shape = _object_shape(client, settings.support_radius, slider.side)
-    body = _make_body(client, slider.mass, shape, 1.0)
+def make_object(client: int, slider: Slider, feet: Sequence[Pair]) -> int:
+    """The slider, on feet at the given places."""
+    shape = _object_shape(client, slider.side, feet)
+    body = make_body(client, slider.mass, shape, 1.0)
     yaw_inertia = slider.mass * slider.side**2 / 6.0
     pybullet.changeDynamics(
         body,
@@ -60,7 +47,7 @@ def make_tip(client: int, settings: WorldSettings, slider: Slider) -> int:
     sphere = pybullet.createCollisionShape(
         pybullet.GEOM_SPHERE, radius=slider.tip_radius, physicsClientId=client
     )
-    return _make_body(client, _TIP_MASS, sphere, settings.friction_pusher)
+    return make_body(client, _TIP_MASS, sphere, settings.friction_pusher)
 
 
 def resting_height(settings: WorldSettings, slider: Slider) -> float:
@@ -68,23 +55,23 @@ def resting_height(settings: WorldSettings, slider: Slider) -> float:
     return HALF_HEIGHT - slider.mass * GRAVITY / (_FEET * settings.stiffness)
 
 
-def _object_shape(client: int, support_radius: float, side: float) -> int:
-    """A box, clear of the table, with spheres as feet on its diagonals."""
-    aside, height = support_radius / math.sqrt(2.0), _FOOT_RADIUS - HALF_HEIGHT
-    feet = [(x, y, height) for x in (-aside, aside) for y in (-aside, aside)]
+def _object_shape(client: int, side: float, feet: Sequence[Pair]) -> int:
+    """A box, clear of the table, with spheres as feet."""
+    centres = [(x, y, _FOOT_RADIUS - HALF_HEIGHT) for x, y in feet]
     half_box = (side / 2.0, side / 2.0, HALF_HEIGHT - _FOOT_RADIUS)
     return int(
         pybullet.createCollisionShapeArray(
             shapeTypes=[pybullet.GEOM_SPHERE] * _FEET + [pybullet.GEOM_BOX],
             radii=[_FOOT_RADIUS] * _FEET + [0.0],
             halfExtents=[(0.0, 0.0, 0.0)] * _FEET + [half_box],
-            collisionFramePositions=[*feet, (0.0, 0.0, _FOOT_RADIUS)],
+            collisionFramePositions=[*centres, (0.0, 0.0, _FOOT_RADIUS)],
             physicsClientId=client,
         )
     )
 
 
-def _make_body(client: int, mass: float, shape: int, friction: float) -> int:
+def make_body(client: int, mass: float, shape: int, friction: float) -> int:
+    """A body that nothing slows but friction, and that never sleeps."""
     body = int(pybullet.createMultiBody(mass, shape, physicsClientId=client))
     pybullet.changeDynamics(
         body,

@@ -5,9 +5,38 @@ not go to another one, and would hold its memory until it is told to forget it.
 """
 
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
+from push_core.actuator import Pair
+
 from push_sim.bullet import pybullet
+from push_sim.symmetry import Symmetry
+
+
+@dataclass(frozen=True)
+class BulletSnapshot:
+    """The whole state of a `BulletWorld`.
+
+    Attributes:
+        server: that of the physics server.
+        seed: of what was drawn at the reset.
+        axes: pose and side of the axes of the physics.
+        symmetry: how the push is seen.
+        aligned: whether that has been settled.
+        steps_left: until the axes follow the slider again.
+        knocked_steps: for which a knock may last.
+        impulse: that the next time step gives, if any [N s].
+    """
+
+    server: bytes
+    seed: int
+    axes: tuple[float, float, float, float]
+    symmetry: Symmetry
+    aligned: bool
+    steps_left: int
+    knocked_steps: int
+    impulse: Pair | None
 
 
 def server_state(client: int) -> bytes:

@@ -6,26 +6,27 @@ axes the same push would turn the slider by a few per cent more or less with its
 """
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 from push_core.actuator import Pair
 from push_core.errors import InputError
-from push_core.frames import Array, rotation, to_body, to_world, wrap_angle
+from push_core.frames import Array, wrap_angle
 from push_core.limit_surface import GRAVITY
 from push_core.quaternion import quaternion_to_yaw, yaw_to_quaternion
 from push_core.slider import Slider
 
+from push_sim.axes import Axes
 from push_sim.bullet import pybullet
-from push_sim.bullet_bodies import (
-    HALF_HEIGHT,
-    make_object,
-    make_table,
-    make_tip,
-    resting_height,
-)
-from push_sim.bullet_snapshot import put_server_state, server_state
+from push_sim.bullet_bodies import HALF_HEIGHT, make_object, make_tip, resting_height
+from push_sim.bullet_snapshot import BulletSnapshot, put_server_state, server_state
+from push_sim.bullet_table import UnevenTable, make_table
+from push_sim.impact import DEEPEST, part_until_touch
+from push_sim.outline import Outline
 from push_sim.settings import WorldSettings
+from push_sim.support import feet
+from push_sim.symmetry import PLAIN, Symmetry, symmetry
+from push_sim.table_friction import TableFriction
 
 _CONTACT_RANGE = 1e-3
 _FOLLOW_TIME = 0.01
@@ -34,109 +35,119 @@ _REST = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
-@dataclass(frozen=True)
-class BulletSnapshot:
-    """The whole state of a `BulletWorld`.
-
-    Attributes:
-        server: that of the physics server.
-        axes: pose (3,) of the axes of the physics.
-        steps_left: until the axes follow the slider again.
-        impulse: (2,) that the next time step gives, if any [N s].
-    """
-
-    server: bytes
-    axes: tuple[float, ...]
-    steps_left: int
-    impulse: tuple[float, ...] | None
-
-
 class BulletWorld:
     """A `World` of PyBullet, in a physics server of its own."""
 
     def __init__(self, settings: WorldSettings, slider: Slider) -> None:
-        self._substep = settings.substep
-        self._client = pybullet.connect(pybullet.DIRECT)
-        self._set_up_solver(settings)
-        table = make_table(self._client, settings)
-        self._object = make_object(self._client, settings, slider)
-        self._tip = make_tip(self._client, settings, slider)
-        pybullet.setCollisionFilterPair(self._tip, table, -1, -1, 0, physicsClientId=self._client)
+        self._settings, self._slider = settings, slider
+        self._outline = Outline(slider.side, slider.tip_radius)
         self._resting_height = resting_height(settings, slider)
-        # gravity takes this vertical speed from the tip in each step, so that it stays level
-        self._lift = GRAVITY * settings.substep
-        self._impulse: Array | None = None
-        self._set_axes(np.zeros(3))
         self._follow_steps = max(1, round(_FOLLOW_TIME / settings.substep))
-        self._steps_left = self._follow_steps
+        # slower than this, the tip cannot get deep in a time step
+        self._fast = (1.0 + 1e-6) * DEEPEST / settings.substep
+        self._table: UnevenTable | None = None
+        self._seed = 0
+        self._client = pybullet.connect(pybullet.DIRECT)
+        self._make(seed=0)
+        self.reset(np.zeros(3), np.array([-2.0 * slider.side, 0.0]))
 
     def close(self) -> None:
-        """Ends the physics server."""
+        """See `World.close`."""
         pybullet.disconnect(self._client)
 
-    def reset(self, object_pose: Array, tip_position: Array) -> None:
+    def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
         """See `World.reset`."""
-        self._impulse = None
+        self._draw(seed)
+        x, y, theta = map(float, object_pose)
+        tip = (float(tip_position[0]), float(tip_position[1]))
+        if self._settings.size_error:
+            x, y, theta = self._outline.made_room((x, y, theta), tip)
+        self._impulse: Pair | None = None
+        self._knocked_steps = 0
         self._forget_contacts()
-        self._set_axes(np.array(object_pose, dtype=float))
-        self._steps_left = self._follow_steps
-        self.place_object(object_pose)
-        self.place_tip(tip_position)
+        self._put_down((x, y, theta), tip, PLAIN)
+        self._aligned = self._settings.uneven or self._settings.pressure == 'random'
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """See `World.advance`."""
+        self.follow([(float(tip_velocity[0]), float(tip_velocity[1]))] * substeps)
+
+    def follow(self, tip_velocities: Sequence[Pair]) -> None:
+        """See `World.follow`."""
+        if tip_velocities and not self._aligned:
+            self._align(tip_velocities[0])
         if self._impulse is not None:
             self._apply_impulse(self._impulse)
-        while substeps > 0:
+        for velocity in tip_velocities:
             if self._steps_left == 0:
                 self._follow_heading()
-            count = min(substeps, self._steps_left)
-            self._run(tip_velocity, count)
-            substeps -= count
-            self._steps_left -= count
+            self._steps_left -= 1
+            if self._table is not None:
+                self._update_friction(self._table)
+            inside = self._axes.vector_inside(velocity)
+            if self._may_hit(velocity):
+                self._step_to_touch(inside)
+            else:
+                self._step(inside)
 
     def place_object(self, object_pose: Array) -> None:
         """See `World.place_object`."""
-        x, y = to_body(self._axes, object_pose[:2]).tolist()
-        turn = yaw_to_quaternion(float(object_pose[2] - self._axes[2]))
+        x, y, theta = map(float, object_pose)
+        x, y = self._axes.point_inside((x, y))
+        turn = self._axes.heading_inside(theta + self._symmetry.turn)
         self._place(self._object, (x, y, self._resting_height), turn)
+        if self._table is not None:
+            self._steps_left = 0
 
     def place_tip(self, position: Array) -> None:
         """See `World.place_tip`."""
-        x, y = to_body(self._axes, position).tolist()
-        self._place(self._tip, (x, y, HALF_HEIGHT), _UPRIGHT)
+        x, y = self._axes.point_inside((float(position[0]), float(position[1])))
+        self._place(self._tip, (x, y, HALF_HEIGHT), 0.0)
 
     def push_object(self, impulse: Array) -> None:
         """See `World.push_object`."""
-        self._impulse = np.array(impulse, dtype=float)
+        x, y = map(float, impulse)
+        self._impulse = (x, y)
+        stopping_time = math.hypot(x, y) / (self._slider.mass * self._settings.friction_ground)
+        self._knocked_steps = math.ceil(2.0 * stopping_time / (GRAVITY * self._settings.substep))
 
     def snapshot(self) -> BulletSnapshot:
         """See `World.snapshot`."""
-        impulse = None if self._impulse is None else tuple(self._impulse.tolist())
-        axes = tuple(self._axes.tolist())
-        return BulletSnapshot(server_state(self._client), axes, self._steps_left, impulse)
+        axes = self._axes
+        return BulletSnapshot(
+            server_state(self._client),
+            self._seed,
+            (axes.x, axes.y, axes.theta, axes.side),
+            self._symmetry,
+            self._aligned,
+            self._steps_left,
+            self._knocked_steps,
+            self._impulse,
+        )
 
     def restore(self, snapshot: object) -> None:
         """See `World.restore`."""
         if not isinstance(snapshot, BulletSnapshot):
             raise InputError('this snapshot is of another engine, not of bullet')
+        self._draw(snapshot.seed)
         put_server_state(self._client, snapshot.server)
-        self._set_axes(np.array(snapshot.axes))
-        self._steps_left = snapshot.steps_left
-        self._impulse = None if snapshot.impulse is None else np.array(snapshot.impulse)
+        self._axes, self._symmetry = Axes(*snapshot.axes), snapshot.symmetry
+        self._aligned = snapshot.aligned
+        self._steps_left, self._knocked_steps = snapshot.steps_left, snapshot.knocked_steps
+        self._impulse = snapshot.impulse
 
     @property
     def object_pose(self) -> Array:
         """See `World.object_pose`."""
-        (x, y, _), (_, _, q_z, q_w) = self._where(self._object)
-        theta = wrap_angle(self._axes[2] + quaternion_to_yaw(q_z, q_w))
-        return np.array([*to_world(self._axes, np.array([x, y])), theta])
+        slider = self._slider_inside()
+        x, y = self._axes.point_outside((slider.x, slider.y))
+        theta = self._axes.heading_outside(slider.theta) - self._symmetry.turn
+        return np.array([x, y, wrap_angle(theta)])
 
     @property
     def tip_position(self) -> Array:
         """See `World.tip_position`."""
-        (x, y, _), _ = self._where(self._tip)
-        return to_world(self._axes, np.array([x, y]))
+        return np.array(self._axes.point_outside(self._tip_inside()))
 
     @property
     def contact(self) -> bool:
@@ -152,56 +163,137 @@ class BulletWorld:
         points = pybullet.getContactPoints(physicsClientId=self._client)
         return max((-float(point[distance]) for point in points), default=0.0)
 
-    def _set_up_solver(self, settings: WorldSettings) -> None:
-        pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=self._client)
+    def _draw(self, seed: int) -> None:
+        """Makes what depends on the seed anew, if it is another one than before."""
+        if seed == self._seed:
+            return
+        if self._settings.pressure == 'random':
+            pybullet.resetSimulation(physicsClientId=self._client)
+            self._make(seed)
+        elif self._settings.uneven:
+            self._table = self._uneven_table(seed)
+        self._seed = seed
+
+    def _make(self, seed: int) -> None:
+        """Makes all bodies in an empty physics server."""
+        client, settings, slider = self._client, self._settings, self._slider
+        self._set_up_solver(settings.substep)
+        self._tables = make_table(client, settings)
+        self._feet = feet(settings, slider.side, seed)
+        self._object = make_object(client, slider, self._feet)
+        self._tip = make_tip(client, settings, slider)
+        for table in self._tables:
+            pybullet.setCollisionFilterPair(self._tip, table, -1, -1, 0, physicsClientId=client)
+        self._table = self._uneven_table(seed) if settings.uneven else None
+
+    def _uneven_table(self, seed: int) -> UnevenTable:
+        friction = TableFriction(self._settings, seed)
+        return UnevenTable(self._client, self._tables, self._feet, friction)
+
+    def _set_up_solver(self, substep: float) -> None:
+        settings, client = self._settings, self._client
+        pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
-            fixedTimeStep=settings.substep,
             numSolverIterations=settings.solver_iterations,
             solverResidualThreshold=settings.solver_residual,
             contactBreakingThreshold=_CONTACT_RANGE,
             enableConeFriction=1,
             deterministicOverlappingPairs=1,
-            physicsClientId=self._client,
+            physicsClientId=client,
+        )
+        self._set_substep(substep)
+
+    def _set_substep(self, substep: float) -> None:
+        pybullet.setPhysicsEngineParameter(fixedTimeStep=substep, physicsClientId=self._client)
+        # gravity takes this vertical speed from the tip in each step, so that it stays level
+        self._lift = GRAVITY * substep
+
+    def _step(self, velocity: Pair) -> None:
+        """One time step of the physics with the tip at a velocity in its axes."""
+        linear = (velocity[0], velocity[1], self._lift)
+        pybullet.resetBaseVelocity(self._tip, linear, _REST, self._client)
+        pybullet.stepSimulation(self._client)
+
+    def _may_hit(self, velocity: Pair) -> bool:
+        """Whether the tip could get deep into the slider within a time step."""
+        if self._knocked_steps > 0:
+            self._knocked_steps -= 1
+            return True
+        return math.hypot(*velocity) > self._fast
+
+    def _step_to_touch(self, velocity: Pair) -> None:
+        """A time step, cut in two where the tip meets the slider in it."""
+        substep = self._settings.substep
+        part = self._part_until_touch(velocity, substep)
+        if part < 1.0:
+            self._set_substep(part * substep)
+            self._step(velocity)
+            self._set_substep((1.0 - part) * substep)
+        self._step(velocity)
+        if part < 1.0:
+            self._set_substep(substep)
+
+    def _part_until_touch(self, velocity: Pair, substep: float) -> float:
+        slider, (x, y) = self._slider_inside(), self._tip_inside()
+        (u, v, _), (_, _, turning) = pybullet.getBaseVelocity(self._object, self._client)
+        later = Axes(
+            slider.x + u * substep, slider.y + v * substep, slider.theta + turning * substep
+        )
+        end = (x + velocity[0] * substep, y + velocity[1] * substep)
+        return part_until_touch(
+            self._outline, slider.point_inside((x, y)), later.point_inside(end)
         )
 
-    def _run(self, velocity: Pair, substeps: int) -> None:
-        linear = (*_turned(velocity, *self._heading), self._lift)
-        client, tip = self._client, self._tip
-        for _ in range(substeps):
-            pybullet.resetBaseVelocity(tip, linear, _REST, physicsClientId=client)
-            pybullet.stepSimulation(client)
-
-    def _set_axes(self, axes: Array) -> None:
-        self._axes = axes
-        self._heading = math.cos(axes[2]), math.sin(axes[2])
+    def _update_friction(self, table: UnevenTable) -> None:
+        linear, angular = pybullet.getBaseVelocity(self._object, self._client)
+        table.update(self._axes, self._slider_inside(), linear[:2], angular[2])
 
     def _follow_heading(self) -> None:
         """Turns the axes of the physics along the slider and moves their origin under it."""
-        client = self._client
-        (x, y, height), orientation = self._where(self._object)
+        client, slider = self._client, self._slider_inside()
+        (_, _, height), (q_x, q_y, q_z, q_w) = self._where(self._object)
         linear, angular = pybullet.getBaseVelocity(self._object, client)
-        (tip_x, tip_y, _), _ = self._where(self._tip)
-        yaw = quaternion_to_yaw(*orientation[2:])
-        heading = math.cos(yaw), math.sin(yaw)
-        back = yaw_to_quaternion(-yaw)
-        _, level = pybullet.multiplyTransforms(_REST, back, _REST, orientation)
-        tip = _turned((tip_x - x, tip_y - y), *heading)
-
-        self._place(self._object, (0.0, 0.0, height), level)
+        x, y = slider.point_inside(self._tip_inside())
+        _, _, back_z, back_w = yaw_to_quaternion(-slider.theta)
+        level = (
+            back_w * q_x - back_z * q_y,
+            back_w * q_y + back_z * q_x,
+            back_w * q_z + back_z * q_w,
+            back_w * q_w - back_z * q_z,
+        )
+        pybullet.resetBasePositionAndOrientation(self._object, (0.0, 0.0, height), level, client)
         pybullet.resetBaseVelocity(
             self._object,
-            (*_turned(linear[:2], *heading), linear[2]),
-            (*_turned(angular[:2], *heading), angular[2]),
-            physicsClientId=client,
+            (*slider.vector_inside(linear[:2]), linear[2]),
+            (*slider.vector_inside(angular[:2]), angular[2]),
+            client,
         )
-        self._place(self._tip, (*tip, HALF_HEIGHT), _UPRIGHT)
-        origin = to_world(self._axes, np.array([x, y]))
-        self._set_axes(np.array([*origin, wrap_angle(self._axes[2] + yaw)]))
+        pybullet.resetBasePositionAndOrientation(self._tip, (x, y, HALF_HEIGHT), _UPRIGHT, client)
+        x, y = self._axes.point_outside((slider.x, slider.y))
+        theta = wrap_angle(self._axes.heading_outside(slider.theta))
+        self._axes = Axes(x, y, theta, self._axes.side)
         self._steps_left = self._follow_steps
+
+    def _align(self, velocity: Pair) -> None:
+        """Sees the push that begins from its face and half."""
+        x, y, theta = self.object_pose.tolist()
+        tip = self._axes.point_outside(self._tip_inside())
+        seen = symmetry((x, y, theta), tip, velocity)
+        self._put_down(self._outline.touched((x, y, theta), tip), tip, seen)
+        self._aligned = True
+
+    def _put_down(self, pose: tuple[float, float, float], tip: Pair, seen: Symmetry) -> None:
+        """Puts slider and tip down at rest, with the axes of the physics under the slider."""
+        self._symmetry = seen
+        self._axes = Axes(pose[0], pose[1], pose[2] + seen.turn, seen.side)
+        self._steps_left = self._follow_steps
+        self.place_object(np.array(pose))
+        self.place_tip(np.array(tip))
 
     def _forget_contacts(self) -> None:
         """Lifts the slider off everything for a step, so that no cached contact is left."""
-        self._place(self._object, _ASIDE, _UPRIGHT)
+        pybullet.resetBasePositionAndOrientation(self._object, _ASIDE, _UPRIGHT, self._client)
+        pybullet.resetBaseVelocity(self._object, _REST, _REST, self._client)
         pybullet.stepSimulation(self._client)
 
     def _where(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -209,28 +301,31 @@ class BulletWorld:
         position, orientation = pybullet.getBasePositionAndOrientation(body, self._client)
         return position, orientation
 
-    def _place(
-        self, body: int, position: tuple[float, ...], orientation: tuple[float, ...]
-    ) -> None:
-        pybullet.resetBasePositionAndOrientation(
-            body, position, orientation, physicsClientId=self._client
-        )
-        pybullet.resetBaseVelocity(body, _REST, _REST, physicsClientId=self._client)
+    def _slider_inside(self) -> Axes:
+        """The slider in the axes of the physics."""
+        (x, y, _), (_, _, q_z, q_w) = self._where(self._object)
+        return Axes(x, y, quaternion_to_yaw(q_z, q_w))
 
-    def _apply_impulse(self, impulse: Array) -> None:
-        force = rotation(self._axes[2]).T @ impulse / self._substep
+    def _tip_inside(self) -> Pair:
+        (x, y, _), _ = self._where(self._tip)
+        return x, y
+
+    def _place(self, body: int, position: tuple[float, float, float], theta: float) -> None:
+        """Puts a body down at rest."""
+        turn = yaw_to_quaternion(theta)
+        pybullet.resetBasePositionAndOrientation(body, position, turn, self._client)
+        pybullet.resetBaseVelocity(body, _REST, _REST, self._client)
+
+    def _apply_impulse(self, impulse: Pair) -> None:
+        substep = self._settings.substep
+        x, y = self._axes.vector_inside(impulse)
         position, _ = self._where(self._object)
         pybullet.applyExternalForce(
             self._object,
             -1,
-            (*force.tolist(), 0.0),
+            (x / substep, y / substep, 0.0),
             position,
             pybullet.WORLD_FRAME,
             physicsClientId=self._client,
         )
         self._impulse = None
-
-
-def _turned(vector: Pair, cos: float, sin: float) -> Pair:
-    """A vector as seen from axes that are turned by the angle of this cosine and sine."""
-    return cos * vector[0] + sin * vector[1], cos * vector[1] - sin * vector[0]

@@ -9,10 +9,16 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 from itertools import accumulate
+from typing import TypeAlias
 
 from push_core.actuator import Pair
 
+from push_sim.axes import Axes
+
+Pose: TypeAlias = tuple[float, float, float]
+
 _QUARTER = math.pi / 2.0
+_ROUNDING = 1e-9
 
 
 class Outline:
@@ -66,6 +72,30 @@ class Outline:
 
     def _off_corner(self, x: float, y: float) -> bool:
         return abs(x) > self._half and abs(y) > self._half
+
+    def made_room(self, pose: Pose, tip: Pair) -> Pose:
+        """A pose of the square, moved aside as far as it overlaps with a tip [m]."""
+        axes = Axes(*pose)
+        if self.gap(*axes.point_inside(tip)) >= 0.0:
+            return pose
+        return self.touching(self.nearest(*axes.point_inside(tip)), pose[2], tip)
+
+    def touched(self, pose: Pose, tip: Pair) -> Pose:
+        """A pose that touches the tip by a nanometre, if it does so but for rounding."""
+        place = Axes(*pose).point_inside(tip)
+        if abs(self.gap(*place)) > _ROUNDING:
+            return pose
+        along = self.nearest(*place)
+        x, y, theta = self.touching(along, pose[2], tip)
+        normal = theta + self.frame(along, self.piece(along))[0]
+        return x - _ROUNDING * math.cos(normal), y - _ROUNDING * math.sin(normal), theta
+
+    def touching(self, along: float, theta: float, tip: Pair) -> Pose:
+        """The pose of heading theta [rad] that a tip [m] touches at a place of the outline."""
+        angle, normal, tangential = self.frame(along, self.piece(along))
+        contact = Axes(0.0, 0.0, theta + angle)
+        x, y = contact.vector_outside((normal - self.tip_radius, tangential))
+        return tip[0] - x, tip[1] - y, theta
 
 
 def _face_before_corner(x: float, y: float) -> int:

@@ -74,7 +74,7 @@ class Plant:
         """
         _check_start(object_pose, tip_position, seed)
         self._ticks = 0
-        self._world.reset(object_pose, tip_position)
+        self._world.reset(object_pose, tip_position, seed)
         random = np.random.default_rng(seed)
         self._driver.reset(random.spawn(1)[0])
         self._schedule.reset()
@@ -95,11 +95,13 @@ class Plant:
     def step(self) -> Observation | None:
         """Advances one period; returns what the sensor shows then, None where that got lost."""
         self._disturb_if_due()
-        start, duration = self.time, self._substep
-        for substep in range(self._substeps):
-            mean_velocity = self._driver.advance(start + substep * duration, duration)
-            self._world.advance(mean_velocity, 1)
-            self._expose_until(substep + 1)
+        start, duration, done = self.time, self._substep, 0
+        while done < self._substeps:
+            until = min(self._substeps, self._exposure - self._ticks * self._substeps)
+            times = (start + substep * duration for substep in range(done, until))
+            self._world.follow([self._driver.advance(time, duration) for time in times])
+            self._expose_until(until)
+            done = until
         self._ticks += 1
         return self._sensor.show()
 

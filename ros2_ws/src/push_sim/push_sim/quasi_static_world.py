@@ -7,6 +7,7 @@ on the tip is moved aside.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,9 +17,11 @@ from push_core.frames import Array, wrap_angle
 from push_core.limit_surface import GRAVITY
 from push_core.slider import Slider
 
+from push_sim.axes import Axes
 from push_sim.outline import Outline
-from push_sim.rolling_contact import RollingContact, Touch, turned
+from push_sim.rolling_contact import RollingContact, Touch
 from push_sim.settings import WorldSettings
+from push_sim.support import feet, friction_moment_radius
 
 _OVERLAP = 1e-12
 _TRAVEL = 0.25e-3
@@ -29,6 +32,7 @@ _BISECTIONS = 40
 class QuasiStaticSnapshot:
     """The whole state of a `QuasiStaticWorld`."""
 
+    rolling: RollingContact
     pose: tuple[float, float, float]
     tip: Pair
     sliding: Pair
@@ -41,22 +45,26 @@ class QuasiStaticWorld:
 
     def __init__(self, settings: WorldSettings, slider: Slider) -> None:
         self._substep = settings.substep
+        self._settings = settings
+        self._side = slider.side
         self._mass = slider.mass
         self._deceleration = settings.friction_ground * GRAVITY
         self._touch: Touch | None = None
         self._outline = Outline(slider.side, slider.tip_radius)
-        self._rolling = RollingContact(
-            self._outline, settings.support_radius, settings.friction_pusher
-        )
         self.reset(np.zeros(3), np.array([-2.0 * slider.side, 0.0]))
 
     def close(self) -> None:
         """Nothing to free."""
 
-    def reset(self, object_pose: Array, tip_position: Array) -> None:
+    def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
         """See `World.reset`."""
+        settings = self._settings
+        c = friction_moment_radius(feet(settings, self._side, seed))
+        self._rolling = RollingContact(self._outline, c, settings.friction_pusher)
         self.place_tip(tip_position)
         self.place_object(object_pose)
+        if settings.size_error:
+            self._make_room()
 
     def place_object(self, object_pose: Array) -> None:
         """See `World.place_object`."""
@@ -82,21 +90,28 @@ class QuasiStaticWorld:
         """See `World.advance`."""
         velocity = (float(tip_velocity[0]), float(tip_velocity[1]))
         left = substeps * self._substep
-        self._make_room()
+        if self._touch is None:
+            self._make_room()
         while left > 0.0:
             left = self._push(velocity, left) if self._touch else self._approach(velocity, left)
         self._pressing = self._touch is not None
 
+    def follow(self, tip_velocities: Sequence[Pair]) -> None:
+        """See `World.follow`."""
+        for velocity in tip_velocities:
+            self.advance(velocity, 1)
+
     def snapshot(self) -> QuasiStaticSnapshot:
         """See `World.snapshot`."""
         return QuasiStaticSnapshot(
-            self._pose, self._tip, self._sliding, self._touch, self._pressing
+            self._rolling, self._pose, self._tip, self._sliding, self._touch, self._pressing
         )
 
     def restore(self, snapshot: object) -> None:
         """See `World.restore`."""
         if not isinstance(snapshot, QuasiStaticSnapshot):
             raise InputError('this snapshot is of another engine, not of quasi_static')
+        self._rolling = snapshot.rolling
         self._pose, self._tip = snapshot.pose, snapshot.tip
         self._sliding, self._touch = snapshot.sliding, snapshot.touch
         self._pressing = snapshot.pressing
@@ -127,7 +142,7 @@ class QuasiStaticWorld:
         assert self._touch is not None
         touch, left = self._rolling.advance(self._touch, velocity, duration)
         self._move_tip(velocity, duration - left)
-        self._pose = self._pose_of(touch)
+        self._pose = self._outline.touching(*touch, self._tip)
         self._touch = touch if left == 0.0 else None
         return left
 
@@ -172,29 +187,17 @@ class QuasiStaticWorld:
         x, y = self._tip
         self._tip = (x + velocity[0] * duration, y + velocity[1] * duration)
 
-    def _make_room(self) -> None:
-        """Moves the square aside where it was put down on the tip."""
-        if self._touch is None and self._gap() < -_OVERLAP:
-            self._take_touch()
-            self._touch = None
-
     def _take_touch(self) -> None:
         """Both touch: at the place of the outline that is nearest to the tip."""
         touch = Touch(self._outline.nearest(*self._tip_in_body()), self._pose[2])
-        self._touch, self._pose = touch, self._pose_of(touch)
+        self._touch, self._pose = touch, self._outline.touching(*touch, self._tip)
 
-    def _pose_of(self, touch: Touch) -> tuple[float, float, float]:
-        """The pose in which the square touches the tip so."""
-        angle, normal, tangential = self._outline.frame(
-            touch.along, self._outline.piece(touch.along)
-        )
-        tip = (normal - self._outline.tip_radius, tangential)
-        x, y = turned(tip, -(touch.theta + angle))
-        return self._tip[0] - x, self._tip[1] - y, touch.theta
+    def _make_room(self) -> None:
+        """Moves the square aside where it was put down on the tip."""
+        self._pose = self._outline.made_room(self._pose, self._tip)
 
     def _gap(self) -> float:
         return self._outline.gap(*self._tip_in_body())
 
     def _tip_in_body(self) -> Pair:
-        x, y, theta = self._pose
-        return turned((self._tip[0] - x, self._tip[1] - y), theta)
+        return Axes(*self._pose).point_inside(self._tip)

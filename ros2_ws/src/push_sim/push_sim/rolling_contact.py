@@ -19,6 +19,7 @@ from push_core.point_contact import (
     twist_of_force,
 )
 
+from push_sim.axes import turned
 from push_sim.outline import Outline
 
 _BISECTIONS = 16
@@ -63,7 +64,7 @@ class RollingContact:
         """The phase of a contact with the tip at a world velocity; none if the tip leaves."""
         piece = self.outline.piece(touch.along)
         angle, normal, tangential = self.outline.frame(touch.along, piece)
-        v_n, v_t = turned(velocity, touch.theta + angle)
+        v_n, v_t = _seen(velocity, touch.theta + angle)
         if v_n <= 0.0:
             return None
         matrix = mobility(normal, tangential, self.support_radius**2)
@@ -119,7 +120,7 @@ class RollingContact:
         """Speed of the contact along the outline [m/s] and of the square's turning [rad/s]."""
         piece, slip = phase
         angle, normal, tangential = self.outline.frame(touch.along, piece)
-        v_n, v_t = turned(velocity, touch.theta + angle)
+        v_n, v_t = _seen(velocity, touch.theta + angle)
         c_squared = self.support_radius**2
         matrix = mobility(normal, tangential, c_squared)
         if slip == 0.0:
@@ -130,7 +131,6 @@ class RollingContact:
         return v_t - t_t - turning * (normal - self.outline.tip_radius), turning
 
 
-def turned(vector: Pair, angle: float) -> Pair:
-    """A vector as seen from axes that are turned by an angle [rad]."""
-    cos, sin = math.cos(angle), math.sin(angle)
-    return cos * vector[0] + sin * vector[1], cos * vector[1] - sin * vector[0]
+def _seen(velocity: Pair, angle: float) -> Pair:
+    """Normal and tangential part of a velocity, the normal at a world angle [rad]."""
+    return turned(velocity, math.cos(angle), math.sin(angle))

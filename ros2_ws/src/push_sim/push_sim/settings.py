@@ -32,6 +32,26 @@ class WorldSettings:
     support_radius: float = setting(
         0.0365, 'distance of the four feet from the centre', unit='m', low=1e-3, high=0.5
     )
+    pressure: str = setting(
+        'calibrated',
+        'how it presses on the table; calibrated: by support_radius',
+        choices=('calibrated', 'uniform', 'centred', 'rim', 'random'),
+    )
+    friction_variation: float = setting(
+        0.0, 'relative standard deviation of the friction over the table', low=0.0, high=0.3
+    )
+    friction_length: float = setting(
+        0.05, 'distance over which that friction varies', unit='m', low=5e-3, high=10.0
+    )
+    friction_anisotropy: float = setting(
+        1.0, 'friction on the table along world x over that along y', low=0.25, high=4.0
+    )
+    mass_error: float = setting(
+        0.0, 'relative excess of the mass over what is assumed', low=-0.5, high=1.0
+    )
+    size_error: float = setting(
+        0.0, 'relative excess of the side over what is assumed', low=-0.2, high=0.2
+    )
     stiffness: float = setting(1e5, 'stiffness of each foot', unit='N/m', low=1e3, high=1e7)
     damping: float = setting(200.0, 'damping of each foot', unit='N s/m', low=0.0, high=1e5)
     solver_iterations: int = setting(200, 'most iterations a step', low=10, high=10000)
@@ -45,6 +65,17 @@ class WorldSettings:
             raise InputError(
                 f'parameter world.substep is {self.substep:g}, must divide {PERIOD:g} s'
             )
+        for name, even in (('friction_variation', 0.0), ('friction_anisotropy', 1.0)):
+            if self.engine == 'quasi_static' and getattr(self, name) != even:
+                raise InputError(
+                    f'parameter world.{name} is {getattr(self, name):g}, must be {even:g} '
+                    'with world.engine quasi_static'
+                )
+
+    @property
+    def uneven(self) -> bool:
+        """Whether the friction on the table depends on place or direction."""
+        return self.friction_variation > 0.0 or self.friction_anisotropy != 1.0
 
     @property
     def substeps(self) -> int:

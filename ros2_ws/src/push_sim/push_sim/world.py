@@ -1,5 +1,6 @@
 """What the plant needs of a world: an object on a table, and a tip that moves as it is told."""
 
+from collections.abc import Sequence
 from typing import Protocol
 
 from push_core.actuator import Pair
@@ -9,16 +10,20 @@ from push_core.frames import Array
 class World(Protocol):
     """Rigid bodies in the plane; `worlds.make_world` knows the engines."""
 
-    def reset(self, object_pose: Array, tip_position: Array) -> None:
+    def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
         """Puts all at rest; what happened before leaves no trace, to the last bit.
 
         Args:
             object_pose: (3,) x [m], y [m], theta [rad].
             tip_position: (2,) centre of the tip [m].
+            seed: of what the settings let be drawn at random.
         """
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
         """Moves on by some time steps while the tip keeps a velocity [m/s]."""
+
+    def follow(self, tip_velocities: Sequence[Pair]) -> None:
+        """Moves on by a time step for each velocity [m/s] of the tip."""
 
     def place_object(self, object_pose: Array) -> None:
         """Lifts the object and puts it down at rest at a pose (3,)."""
@@ -55,3 +60,7 @@ class World(Protocol):
     @property
     def contact(self) -> bool:
         """Whether the tip pressed on the object in the last time step."""
+
+    @property
+    def penetration(self) -> float:
+        """Deepest overlap [m] of any two bodies in the last time step."""

@@ -1,6 +1,7 @@
 """The engines behind the `World` interface, by the name that the settings give."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from push_core.slider import Slider
 
@@ -16,5 +17,15 @@ _ENGINES: dict[str, Callable[[WorldSettings, Slider], World]] = {
 
 
 def make_world(settings: WorldSettings, slider: Slider) -> World:
-    """A world of the engine that the settings name, for a slider."""
-    return _ENGINES[settings.engine](settings, slider)
+    """A world of the engine that the settings name.
+
+    Args:
+        settings: of the world.
+        slider: as one takes it to be; the world's own is off by the errors of the settings.
+    """
+    own = replace(
+        slider,
+        side=slider.side * (1.0 + settings.size_error),
+        mass=slider.mass * (1.0 + settings.mass_error),
+    )
+    return _ENGINES[settings.engine](settings, own)
