@@ -8,6 +8,7 @@ from push_mpc.controller import Controller, Mode, Tick
 from push_mpc.model_client import model_grid
 from push_mpc.planning import planned
 from push_mpc.surrogate import Table
+from push_mpc.travel_rates import travel_rates
 from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 
@@ -74,7 +75,7 @@ def tabulated(model: PushModel, side: float) -> Table:
     """The table that the controller would make of the server's answers."""
     grid = model_grid(model.info, side)
     mean, jacobian = model.evaluate(*grid.points())
-    return Table(grid, mean / model.distance, jacobian / model.distance)
+    return Table(grid, *travel_rates(mean, jacobian, model.distance))
 
 
 def nanoseconds(plant_time: float) -> int:

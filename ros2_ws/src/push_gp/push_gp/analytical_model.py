@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 
 import numpy as np
+from push_core.displacement import displacement_of
 from push_core.errors import RunError
 from push_core.frames import Array
 from push_core.motion_cone import MotionCone
@@ -38,7 +39,7 @@ class AnalyticalModel:
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """See `PushModel.evaluate`."""
         rate, jacobian = MotionCone(self.slider).evaluate(p_y, beta)
-        return rate * self.distance, jacobian * self.distance
+        return displacement_of(rate * self.distance, jacobian * self.distance)
 
     def variance(self, p_y: Array, beta: Array) -> Array:
         """The motion cone knows no doubt.

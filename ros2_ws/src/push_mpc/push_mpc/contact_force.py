@@ -14,7 +14,7 @@ from push_core.limit_surface import LimitSurface
 from push_core.motion_cone import MotionCone, contact_jacobian
 from push_core.slider import Slider
 
-from push_mpc.dynamics import to_rates
+from push_mpc.dynamics import disturbed, to_rates
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,13 @@ class ContactForce:
             by_input[:, :, column] = to_rates(moved, self._rolled(moved), state[:, 2])
         by_input[:, 3, 2] = 1.0
         return by_state, by_input
+
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        velocity = self._twist(state[:, 3], inputs)
+        along = velocity[:, 0] - state[:, 3] * velocity[:, 2]
+        aside = velocity[:, 1] + self.slider.p_x * velocity[:, 2] + inputs[:, 2]
+        return disturbed(np.hypot(along, aside), state[:, 2], self.slider.tip_x)
 
     def tip_velocity(self, p_y: float, force: Array) -> Array:
         """Velocity (2,) [m/s] in the body frame of the tip that makes an input (3,) happen."""

@@ -11,16 +11,16 @@ from push_core.frames import Array, rotation, wrap_angle
 from push_core.safety import limit
 from push_core.slider import Slider
 
+from push_mpc.disturbance import Disturbance
 from push_mpc.force_steering import ForceSteering
 from push_mpc.nominal import Plan
 from push_mpc.predictor import Predictor
 from push_mpc.settings import ControllerSettings
-from push_mpc.stages import Stages
-from push_mpc.steering import Steering
+from push_mpc.steering import Programs, Steering
 from push_mpc.surrogate import Table
 from push_mpc.velocity_steering import VelocitySteering
 
-_STEERINGS: dict[str, Callable[[ControllerSettings, Slider, Plan], Steering]] = {
+_STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
     'gp': VelocitySteering,
     'analytical': ForceSteering,
 }
@@ -41,10 +41,11 @@ class Mode(IntEnum):
 
 @dataclass(frozen=True)
 class Model:
-    """What the controller knows of the object's motion: table, stages of its programs, name."""
+    """What the controller knows of the object's motion, and the plan that goes with it."""
 
     table: Table
-    stages: tuple[Stages, ...]
+    plan: Plan
+    programs: Programs
     model_id: str
 
 
@@ -79,7 +80,8 @@ class Controller:
         self.stop_reason = ''
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider)
-        self._steering = _STEERINGS[settings.controller](settings, slider, plan)
+        self._disturbance = Disturbance(settings.disturbance_length, slider)
+        self._steering = _STEERINGS[settings.controller](settings, slider)
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps)
         self._window = self._steps.copy()
@@ -96,14 +98,15 @@ class Controller:
 
     def prepared(self, table: Table, model_id: str) -> Model:
         """A model linearised along the plan; may run in another thread."""
-        return Model(table, self._steering.stages(table, self._stride), model_id)
+        programs = self._steering.programs(table, self.plan, self._stride)
+        return Model(table, self.plan, programs, model_id)
 
     def use(self, model: Model) -> None:
         """Takes a prepared model from the next tick on, and warms the solver up."""
         first = self._model is None
         self._model = model
         if first:
-            self._solve(self.plan.state[0], 0.0)
+            self._solve(model.plan.state[0], 0.0)
 
     def arm(self) -> None:
         """Makes ready: holds the tip at rest until enough poses came, then tracks the plan."""
@@ -112,6 +115,7 @@ class Controller:
         self._seen = 0
         self._sent = _STILL
         self._predictor.reset()
+        self._disturbance.reset()
 
     def stop(self, reason: str) -> None:
         """Stops and stays stopped until resumed."""
@@ -181,11 +185,12 @@ class Controller:
         reference_time = exposure - self._start
         if reference_time >= self.plan.duration:
             self.mode = Mode.DONE
+        self._disturbance.observe(self._model.table, object_pose, tip)
         pose, tip_then, acts_at = object_pose, tip, exposure
         if self.settings.delay_compensation:
             acts_at = now + self._predictor.horizon
             pose, tip_then = self._predictor.predict(
-                self._model.table, object_pose, tip, exposure, acts_at
+                self._model.table, self._disturbance.rate, object_pose, tip, exposure, acts_at
             )
         predicted = self._state(pose, tip_then)
         started = clock.perf_counter()
@@ -202,15 +207,17 @@ class Controller:
 
     def _solve(self, state: Array, reference_time: float) -> tuple[Array, Tick]:
         """Input (2,) [m/s] for a state (4,) at a time of the reference."""
-        model, plan = self._model, self.plan
+        model = self._model
         assert model is not None
-        reference, nominal = plan.at(reference_time)
+        reference, nominal = model.plan.at(reference_time)
         deviation = state - reference
         deviation[2] = wrap_angle(deviation[2])
-        self._prepare(model, round(max(reference_time, 0.0) / plan.period))
+        self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
         # a tip that is already off the face must not make the problem infeasible
         opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        move = self._steering.solve(state, deviation, reference_time, opening)
+        move = self._steering.solve(
+            model.programs, state, deviation, reference_time, opening, self._disturbance.rate
+        )
         if not move.usable:
             self.stop(f'the solver found no input (status {move.status})')
         tick = Tick(
@@ -229,8 +236,8 @@ class Controller:
         if self._prepared == (model.model_id, sample):
             return
         # the horizon stays at the plan's last sample
-        np.minimum(self._steps + sample, len(model.stages[0]) - 1, out=self._window)
-        self._steering.prepare(model.stages, self._window)
+        np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._window)
+        self._steering.prepare(model.programs, self._window)
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, inputs: Array, heading: float, tip: Array) -> None:

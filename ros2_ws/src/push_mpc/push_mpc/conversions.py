@@ -14,6 +14,7 @@ from push_node.stamps import to_stamp
 from push_mpc.controller import Tick
 from push_mpc.node_settings import MpcSettings
 from push_mpc.nominal import Plan
+from push_mpc.travel_rates import travel_rates
 
 
 def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:
@@ -79,5 +80,5 @@ def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
 
 def answer_arrays(answer: Predict.Response, distance: float) -> tuple[Array, Array]:
     """Displacement rates (n, 3) per metre of travel and their Jacobian (n, 3, 2)."""
-    mean = np.array(answer.mean).reshape(-1, 3) / distance
-    return mean, np.array(answer.jacobian).reshape(-1, 3, 2) / distance
+    mean, jacobian = np.reshape(answer.mean, (-1, 3)), np.reshape(answer.jacobian, (-1, 3, 2))
+    return travel_rates(mean, jacobian, distance)

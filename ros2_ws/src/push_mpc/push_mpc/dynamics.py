@@ -39,6 +39,10 @@ class TravelMotion:
         """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 2)."""
         return linearised(self.model, state, inputs, self.tip_x)
 
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        return disturbed(np.hypot(*inputs.T), state[:, 2], self.tip_x)
+
 
 def rates(model: TravelModel, state: Array, inputs: Array, tip_x: float) -> Array:
     """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
@@ -65,6 +69,19 @@ def linearised(
     )
     by_inputs[:, 3, 1] += 1.0
     return by_state, by_inputs
+
+
+def disturbed(speed: Array, heading: Array, tip_x: float) -> Array:
+    """What a twist beside the model's, a metre of travel, adds to the rates (n, 4, 3).
+
+    Args:
+        speed: of the tip (n,) [m/s].
+        heading: of the object (n,) [rad].
+        tip_x: body-frame x [m] of the tip's centre.
+    """
+    twists = [speed[:, None] * unit for unit in np.eye(3)]
+    columns = [to_rates(twist, _contact(twist, tip_x), heading) for twist in twists]
+    return np.stack(columns, axis=-1)
 
 
 def discretised(

@@ -19,7 +19,7 @@ from push_mpc.nominal import Plan
 from push_mpc.preview import Preview
 from push_mpc.settings import ControllerSettings
 from push_mpc.stages import InputSpace, Stages
-from push_mpc.steering import Move
+from push_mpc.steering import Move, Programs
 from push_mpc.tracking_qp import Solution, TrackingQP
 
 FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
@@ -34,10 +34,9 @@ class ForceSteering:
         mode: in the first stage of the latest solution.
     """
 
-    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
+    def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
         self._settings = settings
         self._motion = ContactForce(slider)
-        self._plan = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
         self._space = _space(slider)
         self.mode = ContactMode.STICKING
         weights = settings.force_weights
@@ -52,25 +51,32 @@ class ForceSteering:
             for _ in FAMILY
         ]
 
-    def stages(self, _model: TravelModel, stride: int) -> tuple[Stages, ...]:
-        """See `Steering.stages`; the limit surface is the slider's, whatever the model."""
-        preview = Preview.of(self._plan, self._motion, stride)
-        dynamics = (preview.transition, preview.effect, preview.drift)
-        return tuple(
-            Stages.of(self._space, *dynamics, self._limits(preview, mode)) for mode in FAMILY
-        )
+    def programs(self, _model: TravelModel, plan: Plan, stride: int) -> Programs:
+        """See `Steering.programs`; the limit surface is the slider's, whatever the model."""
+        forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
+        preview = Preview.of(forces, self._motion, stride)
+        stages = [Stages.of(self._space, preview, self._limits(preview, mode)) for mode in FAMILY]
+        return Programs(forces, tuple(stages))
 
-    def prepare(self, stages: tuple[Stages, ...], window: Array) -> None:
+    def prepare(self, programs: Programs, window: Array) -> None:
         """See `Steering.prepare`."""
-        sticking = stages[0]
-        for program, first in zip(self._programs, stages, strict=True):
+        sticking = programs.stages[0]
+        for program, first in zip(self._programs, programs.stages, strict=True):
             program.prepare(sticking, window, first)
 
-    def solve(self, state: Array, deviation: Array, time: float, opening: float) -> Move:
+    def solve(
+        self,
+        programs: Programs,
+        state: Array,
+        deviation: Array,
+        time: float,
+        opening: float,
+        disturbance: Array,
+    ) -> Move:
         """See `Steering.solve`."""
-        solutions = [program.solve(deviation, opening) for program in self._programs]
+        solutions = [each.solve(deviation, opening, disturbance) for each in self._programs]
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
-        force = self._plan.at(time)[1] + best.inputs[0]
+        force = programs.plan.at(time)[1] + best.inputs[0]
         velocity = self._motion.tip_velocity(state[3], force)
         iterations = sum(solution.iterations for solution in solutions)
         return Move(velocity, best.status, iterations, best.usable)

@@ -45,12 +45,19 @@ class Predictor:
         self._now.command(velocity, time)
 
     def predict(
-        self, table: Table, object_pose: Array, tip: Array, exposure: float, until: float
+        self,
+        table: Table,
+        disturbance: Array,
+        object_pose: Array,
+        tip: Array,
+        exposure: float,
+        until: float,
     ) -> tuple[Array, Array]:
         """Object pose (3,) and tip position (2,) at a later time.
 
         Args:
             table: model of the object.
+            disturbance: twist beside the model's for each metre of travel (3,).
             object_pose: measured pose (3,) at the exposure.
             tip: measured tip position (2,) at the exposure.
             exposure: time of the measurement [s], not before the last one.
@@ -59,11 +66,12 @@ class Predictor:
         self._follow(exposure)
         self._ahead.copy_state(self._now)
         pose, place = tuple(object_pose.tolist()), tuple(tip.tolist())
+        beside = tuple(disturbance.tolist())
         time = exposure
         while until - time > _TIME_TOLERANCE:
             duration = min(_STEP, until - time)
             velocity = self._ahead.advance(time, duration)
-            pose = self._pushed(table, pose, place, velocity, duration)
+            pose = self._pushed(table, beside, pose, place, velocity, duration)
             place = (place[0] + velocity[0] * duration, place[1] + velocity[1] * duration)
             time += duration
         return np.array(pose), np.array(place)
@@ -78,7 +86,13 @@ class Predictor:
             self._time += duration
 
     def _pushed(
-        self, table: Table, pose: Pose, tip: Pair, velocity: Pair, duration: float
+        self,
+        table: Table,
+        beside: tuple[float, float, float],
+        pose: Pose,
+        tip: Pair,
+        velocity: Pair,
+        duration: float,
     ) -> Pose:
         """The object's pose after the tip moved on; it rests where the tip does not press."""
         x, y, theta = pose
@@ -90,7 +104,8 @@ class Predictor:
         v_t = cos * velocity[1] - sin * velocity[0]
         p_y = cos * (tip[1] - y) - sin * (tip[0] - x)
         travel = math.hypot(v_n, v_t) * duration
-        dx, dy, turn = table.rate(p_y, math.atan2(v_n, v_t))
+        rate = table.rate(p_y, math.atan2(v_n, v_t))
+        dx, dy, turn = (known + more for known, more in zip(rate, beside, strict=True))
         # the heading of the middle of the step makes a circle of an even push
         middle = theta + 0.5 * turn * travel
         cos, sin = math.cos(middle), math.sin(middle)

@@ -8,6 +8,7 @@ from push_core.frames import Array
 
 from push_mpc.dynamics import discretised
 from push_mpc.nominal import Plan
+from push_mpc.steady_shift import steady_shift
 
 
 class Motion(Protocol):
@@ -19,6 +20,9 @@ class Motion(Protocol):
     def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
         """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, m)."""
 
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+
 
 @dataclass(frozen=True)
 class Preview:
@@ -27,7 +31,10 @@ class Preview:
     Attributes:
         transition: A (n, 4, 4).
         effect: B (n, 4, m).
-        drift: c (n, 4): motion of the model along the plan minus that of the plan.
+        drift: (n, 4, 1 + 3): motion of the model along the plan minus that of the plan, then
+            what a disturbance adds to it: a twist beside the model's for each metre of travel.
+        target: (n, 4 + m, 3): by how much state and input have to differ from the plan under
+            such a disturbance, so that the object stays on the path.
         input: nominal input at the start of the step (n, m).
         contact: nominal p_y at the end of the step (n,) [m].
     """
@@ -35,6 +42,7 @@ class Preview:
     transition: Array
     effect: Array
     drift: Array
+    target: Array
     input: Array
     contact: Array
 
@@ -42,13 +50,21 @@ class Preview:
     def of(cls, plan: Plan, motion: Motion, stride: int) -> 'Preview':
         """Linearises a motion about a plan."""
         by_state, by_input = motion.linearised(plan.state, plan.input)
+        by_twist = motion.disturbed(plan.state, plan.input)
         # what the plan misses acts like one more input that is always 1
-        inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None]], axis=-1)
+        inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None], by_twist], axis=-1)
         transition, effect = discretised(by_state, inputs, stride, plan.period)
         index = np.arange(len(plan.state))
         ahead = np.minimum(index + stride, len(index) - 1)
-        contact = plan.state[ahead, 3]
-        return cls(transition, effect[:, :, :-1], effect[:, :, -1], plan.input, contact)
+        inputs_end = by_input.shape[-1]
+        return cls(
+            transition,
+            effect[:, :, :inputs_end],
+            effect[:, :, inputs_end:],
+            steady_shift(by_state, by_input, by_twist),
+            plan.input,
+            plan.state[ahead, 3],
+        )
 
 
 def _missed(plan: Plan, motion: Motion) -> Array:

@@ -57,6 +57,13 @@ class ControllerSettings:
         0.25, 'largest v_n; the smallest is 0', unit='m/s', low=1e-3, high=2.0
     )
     tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
+    disturbance_length: float = setting(
+        0.05,
+        'travel over which the model error is estimated; 0 leaves it out',
+        unit='m',
+        low=0.0,
+        high=10.0,
+    )
     delay_compensation: bool = setting(
         True, 'roll the measured state forward through the commands already sent'
     )

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from push_core.frames import Array
 
+from push_mpc.preview import Preview
+
 NX = 4
 STATE_SCALE = np.array([1e-3, 1e-3, 1e-2, 1e-3])
 # where a transition can differ from 0: the world position enters no rate
@@ -53,7 +55,9 @@ class Stages:
     Attributes:
         space: the inputs.
         entries: of -A by pattern, then of -B (n, entries of the space).
-        drift: how the nominal itself misses the model's motion (n, 4).
+        drift: how the nominal itself misses the model's motion, then what a disturbance adds
+            to that (n, 4, 1 + 3).
+        target: where the best state and input are under a disturbance (n, 4 + m, 3).
         low: lowest deviation of p_y after the stage, of the limited inputs in it (n, 1 + k).
         high: highest ones (n, 1 + k).
     """
@@ -61,6 +65,7 @@ class Stages:
     space: InputSpace
     entries: Array
     drift: Array
+    target: Array
     low: Array
     high: Array
 
@@ -68,31 +73,28 @@ class Stages:
     def of(
         cls,
         space: InputSpace,
-        transition: Array,
-        effect: Array,
-        drift: Array,
+        preview: Preview,
         limits: tuple[Array, Array],
     ) -> 'Stages':
         """Scales the stages.
 
         Args:
             space: the inputs.
-            transition: A (n, 4, 4).
-            effect: B (n, 4, m).
-            drift: c (n, 4).
+            preview: the linearised dynamics along the plan.
             limits: lowest and highest deviation of p_y [m] and of the limited combinations of
                 the inputs, each (n, 1 + k).
         """
-        a = transition * (STATE_SCALE / STATE_SCALE[:, None])
-        b = effect * (space.scale / STATE_SCALE[:, None])
+        a = preview.transition * (STATE_SCALE / STATE_SCALE[:, None])
+        b = preview.effect * (space.scale / STATE_SCALE[:, None])
         entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * space.size)], axis=-1)
         low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
-        return cls(space, -entries, drift / STATE_SCALE, low, high)
+        scale = np.concatenate([STATE_SCALE, space.scale])[:, None]
+        return cls(space, -entries, preview.drift / scale[:NX], preview.target / scale, low, high)
 
     def __len__(self) -> int:
         return len(self.entries)
 
-    def in_si_units(self, window: Array) -> tuple[Array, Array, Array, tuple[Array, Array]]:
+    def in_si_units(self, window: Array) -> tuple[Array, Array, Array, Array, tuple[Array, Array]]:
         """What `of` was given after the space, for the stages (N,) of a window."""
         transition = np.zeros((len(window), NX, NX))
         transition[:, A_PATTERN] = -self.entries[window, :_A_ENTRIES]
@@ -100,7 +102,8 @@ class Stages:
         return (
             transition * (STATE_SCALE[:, None] / STATE_SCALE),
             effect * (STATE_SCALE[:, None] / self.space.scale),
-            self.drift[window] * STATE_SCALE,
+            self.drift[window] * STATE_SCALE[:, None],
+            self.target[window] * np.concatenate([STATE_SCALE, self.space.scale])[:, None],
             (
                 self.low[window] * self.space.rows_scale,
                 self.high[window] * self.space.rows_scale,

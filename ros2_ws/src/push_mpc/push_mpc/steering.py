@@ -10,7 +10,21 @@ from typing import Protocol
 from push_core.frames import Array
 
 from push_mpc.dynamics import TravelModel
+from push_mpc.nominal import Plan
 from push_mpc.stages import Stages
+
+
+@dataclass(frozen=True)
+class Programs:
+    """What the solvers are given along one plan.
+
+    Attributes:
+        plan: with the inputs that the programs choose.
+        stages: of each program.
+    """
+
+    plan: Plan
+    stages: tuple[Stages, ...]
 
 
 @dataclass(frozen=True)
@@ -31,20 +45,30 @@ class Move:
 
 
 class Steering(Protocol):
-    """The programs of one tick, about one plan."""
+    """The programs of one tick."""
 
-    def stages(self, model: TravelModel, stride: int) -> tuple[Stages, ...]:
-        """The stages of each program, `stride` samples of the plan long; needs no solver."""
+    def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
+        """The programs about a plan, in stages of `stride` samples; needs no solver."""
 
-    def prepare(self, stages: tuple[Stages, ...], window: Array) -> None:
+    def prepare(self, programs: Programs, window: Array) -> None:
         """Puts in what is known before the state is, for a window (N,) of the stages."""
 
-    def solve(self, state: Array, deviation: Array, time: float, opening: float) -> Move:
+    def solve(
+        self,
+        programs: Programs,
+        state: Array,
+        deviation: Array,
+        time: float,
+        opening: float,
+        disturbance: Array,
+    ) -> Move:
         """Solves the prepared programs.
 
         Args:
+            programs: those that were prepared.
             state: where the tip's velocity will act (4,).
             deviation: from the nominal (4,) [m, m, rad, m].
             time: of the plan [s].
             opening: by how much the bounds of p_y are wider than prepared [m].
+            disturbance: twist beside the model's for each metre of travel (3,).
         """

@@ -1,13 +1,14 @@
 """The quadratic program of one tick: build once, prepare, solve.
 
-    min  sum_i  x_i^T Q x_i + u_i^T R u_i
+    min  sum_i  (x_i - g_i)^T Q (x_i - g_i) + (u_i - h_i)^T R (u_i - h_i)
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
          bounds on p_y of every state but the first, and on combinations of each u_i
 
-in deviations from the nominal. OSQP sees the problem in millimetres and with its cost divided by
-the largest weight: so scaled, its tail is an order of magnitude shorter than in SI units, and its
-own scaling only costs time. Coarse iterations find the active bounds and polishing then solves for
-them: 1e-5 m/s from an independent solver's input where the iterations alone end 3e-3 m/s away.
+in deviations from the nominal; c, g and h are linear in the disturbance. OSQP sees the problem in
+millimetres and with its cost divided by the largest weight: so scaled, its tail is an order of
+magnitude shorter than in SI units, and its own scaling only costs time. Coarse iterations find the
+active bounds and polishing then solves for them: 1e-5 m/s from an independent solver's input where
+the iterations alone end 3e-3 m/s away.
 """
 
 from dataclasses import dataclass
@@ -78,11 +79,16 @@ class TrackingQP:
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
         self._entries = np.zeros((steps, space.entries))
+        self._drift = np.zeros((steps, NX, 4))
+        self._targets = np.zeros((steps, NX + space.size, 3))
+        self._cost = self._diagonal(state_weights, input_weights)
+        self._linear = np.zeros(self._size)
+        self._disturbance = np.ones(4)
         self._opening = 0.0
         self._solver = osqp.OSQP()
         self._solver.setup(
-            sparse.csc_matrix(sparse.diags_array(self._cost(state_weights, input_weights))),
-            np.zeros(self._size),
+            sparse.csc_matrix(sparse.diags_array(self._cost)),
+            self._linear,
             self._matrix,
             self._low,
             self._high,
@@ -101,8 +107,8 @@ class TrackingQP:
         """
         np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
         self._matrix.data[self._places] = self._entries
-        np.take(stages.drift, window, axis=0, out=self._drift(), mode='clip')
-        self._high[NX : self._states] = self._low[NX : self._states]
+        np.take(stages.drift, window, axis=0, out=self._drift, mode='clip')
+        np.take(stages.target, window, axis=0, out=self._targets, mode='clip')
         np.take(stages.low, window, axis=0, out=self._limited(self._low), mode='clip')
         np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
         self._limited(self._low)[0] = first.low[window[0]]
@@ -110,34 +116,46 @@ class TrackingQP:
         self._opening = 0.0
         self._solver.update(Ax=self._matrix.data)
 
-    def solve(self, start: Array, opening: float) -> Solution:
+    def solve(self, start: Array, opening: float, disturbance: Array) -> Solution:
         """Solves the prepared problem, warm-started by the one before.
 
         Args:
             start: deviation x_0 (4,) from the nominal [m, m, rad, m].
             opening: by how much the bounds of p_y are wider than prepared [m].
+            disturbance: twist beside the model's for each metre of travel (3,).
         """
+        self._disturb(disturbance)
         np.divide(start, STATE_SCALE, out=self._low[:NX])
         self._high[:NX] = self._low[:NX]
         wider = (opening - self._opening) / STATE_SCALE[3]
         self._limited(self._low)[:, 0] -= wider
         self._limited(self._high)[:, 0] += wider
         self._opening = opening
-        self._solver.update(l=self._low, u=self._high)
+        self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
         inputs = result.x[self._states :].reshape(self.steps, -1) * self._space.scale
         info = result.info
         return Solution(inputs, float(info.obj_val), int(info.status_val), int(info.iter))
 
-    def _drift(self) -> Array:
-        """The part of the bounds that holds the drift, as a view (N, 4)."""
-        return self._low[NX : self._states].reshape(-1, NX)
+    def _disturb(self, disturbance: Array) -> None:
+        """Sets the drift, and the cost's linear part to where the best state and input are."""
+        self._disturbance[1:] = disturbance
+        drift = self._low[NX : self._states].reshape(-1, NX)
+        np.matmul(self._drift, self._disturbance, out=drift)
+        self._high[NX : self._states] = self._low[NX : self._states]
+        target = self._targets @ disturbance
+        # the state of each stage, then that of the end, which has the last one's target
+        self._linear[: self._states - NX] = target[:, :NX].ravel()
+        self._linear[self._states - NX : self._states] = target[-1, :NX]
+        self._linear[self._states :] = target[:, NX:].ravel()
+        np.multiply(self._cost, self._linear, out=self._linear)
+        np.negative(self._linear, out=self._linear)
 
     def _limited(self, bounds: Array) -> Array:
         """The bounds of p_y and of the inputs, as a view (N, 1 + k)."""
         return bounds[self._states :].reshape(self.steps, -1)
 
-    def _cost(self, state_weights: Array, input_weights: Array) -> Array:
+    def _diagonal(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""
         state, inputs = state_weights * STATE_SCALE**2, input_weights * self._space.scale**2
         diagonal = np.concatenate([np.tile(state, self.steps + 1), np.tile(inputs, self.steps)])

@@ -12,7 +12,7 @@ from push_mpc.nominal import Plan
 from push_mpc.preview import Preview
 from push_mpc.settings import ControllerSettings
 from push_mpc.stages import InputSpace, Stages
-from push_mpc.steering import Move
+from push_mpc.steering import Move, Programs
 from push_mpc.tracking_qp import TrackingQP
 
 SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
@@ -21,8 +21,8 @@ SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
 class VelocitySteering:
     """See `Steering`."""
 
-    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
-        self._settings, self._slider, self._plan = settings, slider, plan
+    def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
+        self._settings, self._slider = settings, slider
         weights = settings.weights
         self._qp = TrackingQP(
             settings.horizon_steps,
@@ -31,21 +31,29 @@ class VelocitySteering:
             np.array([weights.normal, weights.tangential]),
         )
 
-    def stages(self, model: TravelModel, stride: int) -> tuple[Stages, ...]:
-        """See `Steering.stages`."""
+    def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
+        """See `Steering.programs`."""
         motion = TravelMotion(model, self._slider.tip_x)
-        preview = Preview.of(self._plan, motion, stride)
-        limits = self._limits(preview)
-        return (Stages.of(SPACE, preview.transition, preview.effect, preview.drift, limits),)
+        preview = Preview.of(plan, motion, stride)
+        return Programs(plan, (Stages.of(SPACE, preview, self._limits(preview)),))
 
-    def prepare(self, stages: tuple[Stages, ...], window: Array) -> None:
+    def prepare(self, programs: Programs, window: Array) -> None:
         """See `Steering.prepare`."""
-        self._qp.prepare(stages[0], window, stages[0])
+        (stages,) = programs.stages
+        self._qp.prepare(stages, window, stages)
 
-    def solve(self, _state: Array, deviation: Array, time: float, opening: float) -> Move:
+    def solve(
+        self,
+        programs: Programs,
+        _state: Array,
+        deviation: Array,
+        time: float,
+        opening: float,
+        disturbance: Array,
+    ) -> Move:
         """See `Steering.solve`."""
-        solution = self._qp.solve(deviation, opening)
-        velocity = self._plan.at(time)[1] + solution.inputs[0]
+        solution = self._qp.solve(deviation, opening, disturbance)
+        velocity = programs.plan.at(time)[1] + solution.inputs[0]
         return Move(velocity, solution.status, solution.iterations, solution.usable)
 
     def _limits(self, preview: Preview) -> tuple[Array, Array]:

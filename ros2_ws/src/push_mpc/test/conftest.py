@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ from push_mpc.controller import Controller, Mode, Tick
 from push_mpc.node_settings import MpcSettings, mpc_settings
 from push_mpc.nominal import Plan, flat_plan
 from push_mpc.planning import planned
+from push_mpc.stages import Stages
 from push_mpc.surrogate import Grid, Table
+from push_mpc.tracking_qp import Solution, TrackingQP
 from push_sim.perturbation import Kind, Perturbation
 from push_sim.plant import Plant
 from push_sim.settings import profile
@@ -156,9 +159,40 @@ def unrolled() -> Callable[..., tuple[Array, Array]]:
     return unroll
 
 
+@pytest.fixture
+def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, ...], Solution]]:
+    """Fills with the problems (in SI units) that any program solves, and with the solutions."""
+    problems: list[tuple[tuple[Any, ...], Solution]] = []
+    prepared: dict[TrackingQP, tuple[Any, ...]] = {}
+    prepare, solve = TrackingQP.prepare, TrackingQP.solve
+
+    def keep_problem(self: TrackingQP, stages: Stages, window: Array, first: Stages) -> None:
+        *dynamics, limits = stages.in_si_units(window)
+        for limit, own in zip(limits, first.in_si_units(window[:1])[-1], strict=True):
+            limit[0] = own[0]
+        prepared[self] = (*dynamics, limits)
+        prepare(self, stages, window, first)
+
+    def keep_solution(
+        self: TrackingQP, start: Array, opening: float, disturbance: Array
+    ) -> Solution:
+        solution = solve(self, start, opening, disturbance)
+        a, b, drift, target, limits = prepared[self]
+        under = drift @ [1.0, *disturbance], target @ disturbance
+        problems.append(((a, b, *under, limits, start.copy(), opening), solution))
+        return solution
+
+    monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
+    monkeypatch.setattr(TrackingQP, 'solve', keep_solution)
+    return problems
+
+
 @pytest.fixture(scope='session')
 def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable[..., Array]:
-    """Optimal input deviations (N, m), states eliminated, by an interior-point method."""
+    """Optimal input deviations (N, m), states eliminated, by an interior-point method.
+
+    The target (N, 4 + m) is that of the state before each step and of the input in it.
+    """
     clarabel = pytest.importorskip('clarabel', reason='clarabel is in requirements/dev.txt')
 
     def solve(
@@ -168,17 +202,19 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         transition: Array,
         effect: Array,
         drift: Array,
+        target: Array,
         limits: tuple[Array, Array],
         start: Array,
         opening: float,
     ) -> Array:
         free, forced = unrolled(transition, effect, drift, start)
         steps, nx, nu = effect.shape
+        aim = np.concatenate([target[1:, :nx], target[-1:, :nx]]).ravel()
         unit = np.sqrt(np.tile(input_weights, steps))
         weights = np.tile(state_weights, steps)
         forced /= unit
         hessian = 2.0 * (forced.T * weights @ forced + np.eye(nu * steps))
-        gradient = 2.0 * forced.T @ (weights * free)
+        gradient = 2.0 * (forced.T @ (weights * (free - aim)) - unit * target[:, nx:].ravel())
         rows = np.vstack([forced[3::nx], np.kron(np.eye(steps), limited) / unit])
         shift = np.concatenate([free[3::nx], np.zeros(len(limited) * steps)])
         low, high = (

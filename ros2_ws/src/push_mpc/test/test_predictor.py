@@ -14,6 +14,7 @@ ROBOT = ACTUATORS['irb120']
 DELAY = ROBOT.dead_time + ROBOT.lag
 POSE = np.array([0.1, -0.2, 0.6])
 P_Y = 0.008
+UNDISTURBED = np.zeros(3)
 
 
 @pytest.fixture
@@ -54,14 +55,17 @@ def simulated(slider, table, commands, start, until, step=1e-4):
     return pose, tip
 
 
-def test_an_even_push_moves_the_object_by_its_rate(predictor, slider, constant_table) -> None:
+def test_an_even_push_moves_the_object_by_its_rate_and_the_disturbance(
+    predictor, slider, constant_table
+) -> None:
     velocity = rotation(POSE[2]) @ [0.08, 0.01]
     predictor.sent(velocity, 0.0)
     tip = slider.tip_position(POSE, P_Y)
-    predictor.predict(constant_table, POSE, tip, 0.0, DELAY)
-    pose, place = predictor.predict(constant_table, POSE, tip, 2.0, 2.0 + DELAY)
+    predictor.predict(constant_table, UNDISTURBED, POSE, tip, 0.0, DELAY)
+    beside = np.array([0.02, -0.1, 0.0])
+    pose, place = predictor.predict(constant_table, beside, POSE, tip, 2.0, 2.0 + DELAY)
     travel = DELAY * math.hypot(*velocity)
-    assert pose[:2] == pytest.approx(POSE[:2] + travel * rotation(POSE[2]) @ [0.9, 0.1])
+    assert pose[:2] == pytest.approx(POSE[:2] + travel * rotation(POSE[2]) @ [0.92, 0.0])
     assert pose[2] == POSE[2]
     assert place == pytest.approx(tip + DELAY * velocity)
 
@@ -74,10 +78,10 @@ def test_commands_under_way_act_when_they_will(predictor, slider, table, latency
     commands = [(0.01 * i + latency, rotation(POSE[2]) @ v) for i, v in enumerate(body)]
     tip = slider.tip_position(POSE, P_Y)
     for sent, velocity in commands:
-        predictor.predict(table, POSE, tip, sent - latency, sent + DELAY)
+        predictor.predict(table, UNDISTURBED, POSE, tip, sent - latency, sent + DELAY)
         predictor.sent(velocity, sent)
     start, until = 0.06, 0.06 + latency + DELAY
-    pose, place = predictor.predict(table, POSE, tip, start, until)
+    pose, place = predictor.predict(table, UNDISTURBED, POSE, tip, start, until)
     expected_pose, expected_place = simulated(slider, table, commands, start, until)
     assert place == pytest.approx(expected_place, abs=1e-6)
     assert pose[:2] == pytest.approx(expected_pose[:2], abs=3e-5)
@@ -87,7 +91,7 @@ def test_commands_under_way_act_when_they_will(predictor, slider, table, latency
 
 def test_without_commands_nothing_moves(predictor, slider, table) -> None:
     tip = slider.tip_position(POSE, P_Y)
-    pose, place = predictor.predict(table, POSE, tip, 0.0, DELAY)
+    pose, place = predictor.predict(table, UNDISTURBED, POSE, tip, 0.0, DELAY)
     assert np.array_equal(pose, POSE)
     assert np.array_equal(place, tip)
 
@@ -95,8 +99,8 @@ def test_without_commands_nothing_moves(predictor, slider, table) -> None:
 def test_an_object_rests_while_the_tip_is_apart(predictor, slider, table) -> None:
     predictor.sent(rotation(POSE[2]) @ [0.08, 0.0], 0.0)
     tip = slider.tip_position(POSE, P_Y, gap=0.02)
-    predictor.predict(table, POSE, tip, 0.0, DELAY)
-    pose, place = predictor.predict(table, POSE, tip, 1.0, 1.0 + DELAY)
+    predictor.predict(table, UNDISTURBED, POSE, tip, 0.0, DELAY)
+    pose, place = predictor.predict(table, UNDISTURBED, POSE, tip, 1.0, 1.0 + DELAY)
     assert np.array_equal(pose, POSE)
     assert np.hypot(*(place - tip)) == pytest.approx(0.08 * DELAY)
 
@@ -104,16 +108,16 @@ def test_an_object_rests_while_the_tip_is_apart(predictor, slider, table) -> Non
 def test_an_object_rests_while_the_tip_retreats(predictor, slider, table) -> None:
     predictor.sent(rotation(POSE[2]) @ [-0.08, 0.02], 0.0)
     tip = slider.tip_position(POSE, P_Y)
-    pose, _ = predictor.predict(table, POSE, tip, 0.0, 0.3)
+    pose, _ = predictor.predict(table, UNDISTURBED, POSE, tip, 0.0, 0.3)
     assert np.array_equal(pose, POSE)
 
 
 def test_after_a_reset_no_command_is_under_way(predictor, slider, table) -> None:
     tip = slider.tip_position(POSE, P_Y)
     predictor.sent(np.array([0.08, 0.0]), 0.0)
-    predictor.predict(table, POSE, tip, 1.0, 1.1)
+    predictor.predict(table, UNDISTURBED, POSE, tip, 1.0, 1.1)
     predictor.reset()
-    pose, place = predictor.predict(table, POSE, tip, 0.0, 0.5)
+    pose, place = predictor.predict(table, UNDISTURBED, POSE, tip, 0.0, 0.5)
     assert np.array_equal(pose, POSE)
     assert np.array_equal(place, tip)
 

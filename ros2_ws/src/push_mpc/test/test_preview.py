@@ -26,7 +26,7 @@ def test_it_predicts_a_perturbed_motion_about_the_plan(eight, slider, preview) -
         predicted = (
             preview.transition[sample] @ state_error
             + preview.effect[sample] @ input_error
-            + preview.drift[sample]
+            + preview.drift[sample, :, 0]
         )
         found = state - eight.state[sample + STRIDE]
         # the step is of first order in its three samples
@@ -37,10 +37,24 @@ def test_a_plan_that_fits_its_model_has_no_drift(eight, slider) -> None:
     # a point contact, for which the plan was made; a circle's samples are 3e-8 m off its tangent
     motion = TravelMotion(MotionCone(slider), slider.p_x)
     drift = Preview.of(eight, motion, STRIDE).drift
-    assert np.abs(drift[200:900]).max() < 1e-7
+    assert np.abs(drift[200:900, :, 0]).max() < 1e-7
 
 
 def test_a_round_tip_rolls_along_the_face(eight, slider, preview) -> None:
     omega = np.gradient(eight.state[:, 2], eight.period)
     rolled = STRIDE * eight.period * omega * slider.tip_radius
-    assert np.allclose(preview.drift[200:900, 3], rolled[200:900], rtol=0, atol=1e-7)
+    assert np.allclose(preview.drift[200:900, 3, 0], rolled[200:900], rtol=0, atol=1e-7)
+
+
+def test_under_a_constant_disturbance_the_shifted_plan_stays_on_its_path(eight, slider) -> None:
+    """The rates of the motion with the disturbance, at the shifted state and input."""
+    motion = TravelMotion(MotionCone(slider), slider.tip_x)
+    disturbance = np.array([0.01, 0.02, 0.2])
+    target = Preview.of(eight, motion, STRIDE).target @ disturbance
+    state, inputs = eight.state + target[:, :4], eight.input + target[:, 4:]
+    added = motion.disturbed(eight.state, eight.input) @ disturbance
+    planned = motion.rates(eight.state, eight.input)
+    left = motion.rates(state, inputs) + motion.disturbed(state, inputs) @ disturbance - planned
+    share = np.abs(left[200:900]).max(axis=0) / np.abs(added[200:900]).max(axis=0)
+    # the contact sticks: it rolls on where the object turns otherwise
+    assert (share[:3] < 0.05).all()

@@ -1,5 +1,7 @@
 """The quadratic program, against one built anew in SI units and solved by another solver."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from push_mpc.stages import NX, InputSpace, Stages
@@ -10,49 +12,34 @@ NU = 2
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 30.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
+DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
 
 @pytest.fixture
-def recorded(tracking, monkeypatch):
+def recorded(tracking, recorded_problems):
     """The problems of 250 ticks with kicks, and the solutions that the controller had."""
-    problems, solutions = [], []
-    prepare, solve = TrackingQP.prepare, TrackingQP.solve
-    prepared = {}
-
-    def keep_problem(self, stages, window, first):
-        prepared[self] = stages.in_si_units(window)
-        prepare(self, stages, window, first)
-
-    def keep_solution(self, start, opening):
-        problems.append((*prepared[self], start.copy(), opening))
-        solutions.append(solve(self, start, opening))
-        return solutions[-1]
-
-    monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
-    monkeypatch.setattr(TrackingQP, 'solve', keep_solution)
     kicks = {30: (Kind.TANGENTIAL, 0.02), 100: (Kind.NORMAL, 0.02), 170: (Kind.TANGENTIAL, -0.02)}
     for tick in range(250):
         if tick in kicks:
             tracking.disturb(*kicks[tick])
         tracking.tick()
-    return problems, solutions
+    return recorded_problems
 
 
 def test_every_first_input_is_that_of_the_other_solver_to_1e_4(
     recorded, independent_inputs
 ) -> None:
-    problems, solutions = recorded
     at_a_bound = 0
-    for problem, solution in list(zip(problems, solutions, strict=True))[::4]:
+    for problem, solution in recorded[::4]:
         expected = independent_inputs(STATE_WEIGHTS, INPUT_WEIGHTS, np.eye(NU), *problem)
         assert np.abs(solution.inputs[0] - expected[0]).max() < 1e-4
-        low, high = (limit[:, 1:] for limit in problem[3])
+        low, high = (limit[:, 1:] for limit in problem[4])
         at_a_bound += np.any((expected < low + 1e-6) | (expected > high - 1e-6))
     assert at_a_bound >= 3, 'the kicks were too weak to test the bounds'
 
 
 def test_the_solver_is_warm_and_its_iterations_are_few(recorded) -> None:
-    _, solutions = recorded
+    solutions = [solution for _, solution in recorded]
     assert {solution.status for solution in solutions} == {1}
     assert np.median([solution.iterations for solution in solutions]) <= 25
 
@@ -65,26 +52,36 @@ def problem():
     a[:, :2, 2:] = generator.normal(scale=0.02, size=(6, 2, 2))
     a[:, 2, 3] = generator.normal(scale=0.5, size=6)
     b = 0.03 * generator.normal(size=(6, NX, NU)) * [[1], [1], [10], [1]]
-    c = 1e-4 * generator.normal(size=(6, NX))
+    c = 1e-4 * generator.normal(size=(6, NX, 4))
+    target = 1e-3 * generator.normal(size=(6, NX + NU, 3))
     start = np.array([2e-3, -1e-3, 0.02, 1e-3])
-    return a, b, c, (-np.ones((6, 3)), np.ones((6, 3))), start
+    return a, b, c, target, (-np.ones((6, 3)), np.ones((6, 3))), start
+
+
+def stages_of(problem):
+    parts = {'transition': 0, 'effect': 1, 'drift': 2, 'target': 3}
+    preview = SimpleNamespace(**{name: problem[index] for name, index in parts.items()})
+    return Stages.of(SPACE, preview, problem[4])
 
 
 def solved(problem, times=1, opening=0.0):
-    *stages, start = problem
     qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS)
-    made = Stages.of(SPACE, *stages)
+    made = stages_of(problem)
     for _ in range(times):
         qp.prepare(made, np.arange(6), made)
-        solution = qp.solve(start, opening)
+        solution = qp.solve(problem[5], opening, DISTURBANCE)
     return solution
 
 
 def test_without_bounds_it_is_the_least_squares_solution(problem, unrolled) -> None:
-    free, forced = unrolled(*problem[:3], problem[4])
+    transition, effect, drift, target, _, start = problem
+    free, forced = unrolled(transition, effect, drift @ [1.0, *DISTURBANCE], start)
+    aim = target @ DISTURBANCE
+    later = np.concatenate([aim[1:, :NX], aim[-1:, :NX]]).ravel()
     root = np.sqrt(np.tile(STATE_WEIGHTS, 6))
     rows = np.vstack([root[:, None] * forced, np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6)))])
-    right = np.concatenate([-root * free, np.zeros(12)])
+    preferred = np.sqrt(INPUT_WEIGHTS) * aim[:, NX:]
+    right = np.concatenate([root * (later - free), preferred.ravel()])
     expected = np.linalg.lstsq(rows, right)[0].reshape(6, NU)
     assert np.allclose(solved(problem).inputs, expected, rtol=0, atol=1e-6)
 
@@ -93,7 +90,7 @@ def test_inputs_stay_within_their_bounds(problem) -> None:
     free_inputs = solved(problem).inputs
     half = 0.5 * np.abs(free_inputs).max()
     limit = np.full((6, 3), [1.0, half, half])
-    inputs = solved((*problem[:3], (-limit, limit), problem[4])).inputs
+    inputs = solved((*problem[:4], (-limit, limit), problem[5])).inputs
     assert np.abs(inputs).max() == pytest.approx(half, abs=1e-6)
 
 
@@ -104,13 +101,13 @@ def test_solving_again_starts_from_the_solution(problem) -> None:
 
 def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened(problem) -> None:
     far_off = np.full((6, 3), [0.5, 0.0, 0.0]), np.full((6, 3), [0.6, 0.0, 0.0])
-    impossible = (*problem[:3], far_off, problem[4])
+    impossible = (*problem[:4], far_off, problem[5])
     assert not solved(impossible).usable
     assert solved(impossible, opening=0.6).usable
 
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:
-    *parts, _ = problem
-    again = Stages.of(SPACE, *parts).in_si_units(np.array([3, 1]))
-    for given, found in zip([*parts[:3], *parts[3]], [*again[:3], *again[3]], strict=True):
+    again = stages_of(problem).in_si_units(np.array([3, 1]))
+    given_parts = [*problem[:4], *problem[4]]
+    for given, found in zip(given_parts, [*again[:4], *again[4]], strict=True):
         np.testing.assert_allclose(found, given[[3, 1]], rtol=1e-14, atol=1e-18)
