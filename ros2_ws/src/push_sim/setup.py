@@ -19,6 +19,7 @@ setup(
             'sim_node = push_sim.sim_node:main',
             'collect = push_sim.collect:main',
             'validate = push_sim.validate:main',
+            'calibrate = push_sim.calibrate:main',
         ],
     },
 )

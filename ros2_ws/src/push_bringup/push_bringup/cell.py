@@ -73,6 +73,12 @@ def parser() -> Parser:
         metavar='NAME:=VALUE',
         help='any parameter of a node, as NAME or NODE.NAME; repeatable',
     )
+    parser.add_argument(
+        '--params',
+        type=Path,
+        metavar='FILE',
+        help='ROS parameter file over the defaults, such as that of push_sim calibrate',
+    )
     parser.add_argument('--namespace', default='', help='of the node graph')
     parser.add_argument(
         '-o',
@@ -135,6 +141,7 @@ def _request(arguments: argparse.Namespace) -> Request:
         output=arguments.output,
         namespace=arguments.namespace.strip('/'),
         overrides=overrides,
+        params=arguments.params,
     )
 
 

@@ -61,7 +61,9 @@ def resolved(request: Request, defaults: Path, folder: Path, inputs: Path) -> Ce
     Raises:
         InputError: an unknown parameter, or a value out of range.
     """
-    values = _from_text(defaults.read_text(encoding='utf-8'))
+    values = _from_file(defaults)
+    for node, own in _from_file(request.params).items() if request.params else ():
+        values[node].update(own)
     for node, changes in _from_request(request, folder, inputs).items():
         values[node].update(changes)
     return _checked(values, request.overrides)
@@ -77,15 +79,37 @@ def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParam
     Raises:
         InputError: the text is no parameter file, a parameter is unknown, or a value out of range.
     """
+    return _checked(_from_text(text, 'the recorded parameters'), overrides)
+
+
+def _from_file(path: Path) -> dict[str, dict[str, Any]]:
     try:
-        return _checked(_from_text(text), overrides)
-    except (yaml.YAMLError, AttributeError) as error:
-        raise InputError(f'the recorded parameters are not readable: {error}') from None
+        return _from_text(path.read_text(encoding='utf-8'), str(path))
+    except OSError as error:
+        raise InputError(f'cannot read {path}: {error.strerror}') from error
+    except UnicodeDecodeError as error:
+        raise InputError(f'{path}: is not a text file') from error
 
 
-def _from_text(text: str) -> dict[str, dict[str, Any]]:
-    blocks = yaml.safe_load(text)
-    return {node: dict(blocks.get(f'/**/{node}', {}).get('ros__parameters', {})) for node in NODES}
+def _from_text(text: str, source: str) -> dict[str, dict[str, Any]]:
+    try:
+        blocks = yaml.safe_load(text)
+        unknown = sorted(set(blocks) - {f'/**/{node}' for node in NODES})
+        values = {node: _block(blocks, node) for node in NODES}
+    except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
+        raise InputError(
+            f'{source}: is not readable as a parameter file of blocks such as '
+            f'/**/{NODES[0]} with ros__parameters'
+        ) from error
+    if unknown:
+        known = ', '.join(f'/**/{node}' for node in NODES)
+        raise InputError(f'{source}: unknown block {unknown[0]!r}; known: {known}')
+    return values
+
+
+def _block(blocks: Mapping[str, Any], node: str) -> dict[str, Any]:
+    block = blocks.get(f'/**/{node}', {'ros__parameters': {}})
+    return dict(block['ros__parameters'])
 
 
 def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dict[str, Any]]:

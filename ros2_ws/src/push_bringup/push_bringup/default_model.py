@@ -1,11 +1,16 @@
-"""The model that the cell uses when none is named: learned once from simulated pushes, cached."""
+"""The model that the cell uses when none is named: learned once from simulated pushes, cached.
 
+A plant with other defaults has a model of its own.
+"""
+
+import hashlib
 import os
 import sys
 from pathlib import Path
 
 from push_core.errors import InputError
 from push_gp.sealed_archive import read_sealed
+from push_sim.settings import profile
 
 POINTS = 200
 SEED = 0
@@ -13,7 +18,7 @@ SEED = 0
 
 def default_model() -> Path:
     """Path of the model file; collects and trains it where the cache does not hold a good one."""
-    path = _cache() / f'simulated_{POINTS}_pushes_seed_{SEED}.npz'
+    path = _cache() / f'simulated_{POINTS}_pushes_seed_{SEED}_plant_{_plant()}.npz'
     if not _is_good(path):
         sys.stderr.write(f'learning the default model from {POINTS} simulated pushes, once\n')
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -28,6 +33,12 @@ def _learn(path: Path) -> None:
     from push_sim.collect import collect  # noqa: PLC0415
 
     save_model(path, learned(collect(POINTS, SEED)))
+
+
+def _plant() -> str:
+    """What tells one plant from another."""
+    world = profile('irb120').world
+    return hashlib.sha256(repr(world).encode()).hexdigest()[:12]
 
 
 def _cache() -> Path:

@@ -21,6 +21,7 @@ class Request:
         output: folder in which the run's own folder is made.
         namespace: of the node graph; '' for none.
         overrides: further parameters, by name or by node.name.
+        params: parameter file over that of the cell, or None.
     """
 
     track: str
@@ -35,3 +36,4 @@ class Request:
     output: Path
     namespace: str
     overrides: dict[str, object]
+    params: Path | None = None

@@ -56,6 +56,36 @@ def test_an_override_reaches_all_nodes_that_have_it_or_the_one_that_it_names() -
     assert (one.sim.actuator.lag, one.mpc.actuator.lag) == (0.02, 0.0)
 
 
+def test_a_parameter_file_comes_over_the_defaults_and_under_the_overrides(tmp_path: Path) -> None:
+    path = tmp_path / 'fitted.yaml'
+    path.write_text(
+        '/**/sim_node:\n  ros__parameters: {actuator.lag: 0.04, world.stiffness: 2.0e+5}'
+    )
+    fitted = resolve(params=path, overrides={'actuator.lag': 0.03})
+    assert (fitted.sim.world.stiffness, fitted.sim.actuator.lag) == (2e5, 0.03)
+    assert resolve(params=path).sim.actuator.lag == 0.04
+
+
+@pytest.mark.parametrize(
+    ('text', 'fault'),
+    [
+        ('/**/sim_node:\n  ros__parameters: {world.mass: 1.0}', "unknown parameter 'world.mass'"),
+        ('/**/robot:\n  ros__parameters: {}', "unknown block '/**/robot'"),
+        ('/**/sim_node: 3', 'is not readable as a parameter file'),
+        ('3', 'is not readable as a parameter file'),
+        ('{', 'is not readable as a parameter file'),
+    ],
+)
+def test_a_faulty_parameter_file_is_refused(text: str, fault: str, tmp_path: Path) -> None:
+    path = tmp_path / 'fitted.yaml'
+    path.write_text(text)
+    with pytest.raises(InputError) as caught:
+        resolve(params=path)
+    assert fault in str(caught.value)
+    with pytest.raises(InputError, match='No such file'):
+        resolve(params=tmp_path / 'none.yaml')
+
+
 def test_an_override_of_the_profile_brings_its_defaults() -> None:
     parameters = resolve(profile='irb120', overrides={'mpc_node.profile': 'ideal'})
     assert (parameters.sim.actuator.lag, parameters.mpc.actuator.lag) == (0.05, 0.0)

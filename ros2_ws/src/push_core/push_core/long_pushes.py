@@ -68,6 +68,11 @@ class LongPushes:
     def __len__(self) -> int:
         return len(self.start)
 
+    def take(self, rows: NDArray[np.intp]) -> 'LongPushes':
+        """The pushes of the given row numbers, in their order."""
+        columns = (self.start, self.end, self.tip_start, self.tip_end)
+        return LongPushes(self.slider, *(column[rows] for column in columns))
+
     @property
     def direction(self) -> Array:
         """(n,) world directions [rad] in which the tip went."""

@@ -2,11 +2,9 @@
 
 import numpy as np
 from numpy.typing import NDArray
+from push_core.die import five_of_a_die
 from push_core.errors import InputError
 from push_core.push_set import HALF_FACE, PushSet
-
-DIE = np.array([[0.0, 90.0], [-0.5, 60.0], [0.5, 60.0], [-0.5, 120.0], [0.5, 120.0]])
-"""The five of a die: p_y in halves of a face, beta in degrees."""
 
 Rows = NDArray[np.intp]
 
@@ -52,9 +50,9 @@ def die_rows(pushes: PushSet) -> Rows:
     Raises:
         InputError: the set holds fewer than five pushes.
     """
-    if len(pushes) < len(DIE):
-        raise InputError(f'the five of a die needs {len(DIE)} pushes, not {len(pushes)}')
-    pattern = DIE * [HALF_FACE, np.pi / 180.0]
+    pattern = five_of_a_die(HALF_FACE)
+    if len(pushes) < len(pattern):
+        raise InputError(f'the five of a die needs {len(pattern)} pushes, not {len(pushes)}')
     free = np.ones(len(pushes), dtype=bool)
     rows = []
     for place in pattern:

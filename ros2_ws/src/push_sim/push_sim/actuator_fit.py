@@ -1,6 +1,5 @@
-"""The dead time and lag that bring the commanded tip of robot runs nearest to the sensed one."""
+"""The dead time and lag that bring the commanded tip of a robot run nearest to the sensed one."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,11 +7,13 @@ from push_core.actuator import ActuatorSettings
 from push_core.frames import Array
 from scipy.optimize import least_squares
 
+from push_sim.bootstrap import bootstrap_deviation
 from push_sim.robot_run import RobotRun
 from push_sim.tip_replay import tip_gap
 
 _LARGEST = 0.5
 _SMALLEST = 1e-4
+_BLOCK = 250
 
 
 @dataclass(frozen=True)
@@ -21,36 +22,45 @@ class ActuatorFit:
 
     Attributes:
         settings: the actuator with its dead time and lag replaced.
-        covariance: (2, 2) of dead time and lag [s^2], by the curvature at the optimum.
+        residual: (n, 2) from the sensed tip to the model's [m].
+        jacobian: (n, 2, 2) its derivatives by dead time and lag [m/s].
     """
 
     settings: ActuatorSettings
-    covariance: Array
+    residual: Array
+    jacobian: Array
+
+    def deviation(self, seed: int) -> Array:
+        """Standard deviations (2,) of dead time and lag [s], by drawing half seconds of the run.
+
+        Rows next to each other tell the same, so they are drawn together.
+        """
+        blocks = max(2, len(self.residual) // _BLOCK)
+        rows = blocks * (len(self.residual) // blocks)
+        return bootstrap_deviation(
+            self.residual[:rows].reshape(blocks, -1),
+            self.jacobian[:rows].reshape(blocks, -1, 2),
+            seed,
+        )
 
 
-def fitted_actuator(runs: Sequence[RobotRun], start: ActuatorSettings) -> ActuatorFit:
+def fitted_actuator(run: RobotRun, start: ActuatorSettings) -> ActuatorFit:
     """Least squares of the distance between the model's tip and the sensed one.
 
     Args:
-        runs: at least one.
+        run: with as much motion as the lag is to be told from.
         start: where the search begins; its limits are kept.
     """
-
-    def apart(times: Array) -> Array:
-        settings = _with_times(start, times)
-        return np.concatenate([tip_gap(run, settings).ravel() for run in runs])
-
     found = least_squares(
-        apart,
+        lambda times: tip_gap(run, _with_times(start, times)).ravel(),
         np.clip([start.dead_time, start.lag], _SMALLEST, _LARGEST),
         bounds=(0.0, _LARGEST),
         x_scale=0.01,
         diff_step=0.02,
         xtol=1e-6,
     )
-    variance = 2.0 * found.cost / max(1, found.fun.size - 2)
-    covariance = variance * np.linalg.pinv(found.jac.T @ found.jac)
-    return ActuatorFit(_with_times(start, found.x), covariance)
+    settings = _with_times(start, found.x)
+    return ActuatorFit(settings, found.fun.reshape(-1, 2), found.jac.reshape(-1, 2, 2))
 
 
 def _with_times(settings: ActuatorSettings, times: Array) -> ActuatorSettings:

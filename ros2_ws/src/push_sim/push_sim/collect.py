@@ -1,27 +1,55 @@
 """The command that collects pushes in the simulator: `ros2 run push_sim collect`."""
 
 import argparse
-import multiprocessing
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from push_core.command_line import Parser, run_command
-from push_core.errors import InputError
 from push_core.frames import Array
 from push_core.push_csv import write_pushes
 from push_core.push_set import PushSet
 from push_core.slider import Slider
 from tqdm import tqdm
 
-from push_sim.collector import Collector, PushDesign
-from push_sim.settings import PROFILES, profile
+from push_sim.collector import Collector
+from push_sim.command_checks import check_folder, check_jobs, check_range, check_seed
+from push_sim.push_design import PushDesign
+from push_sim.push_sampling import SAMPLINGS, Aim
+from push_sim.settings import PROFILES, SimSettings, profile
+from push_sim.workers import workers
+
+EPILOG = """how the pushes are chosen (--sampling):
+  uniform   drawn evenly over 95 % of the face and directions up to 84 degrees from the normal
+  grid      the middles of k x k cells over both; N has to be a square number
+  die       the five of a die in turn: the middle of the face along the normal, and half-way to
+            each end 30 degrees to either side
+
+examples:
+  ros2 run push_sim collect --pushes 5000 -o pushes.csv
+  ros2 run push_sim collect --pushes 5 --sampling die --profile ideal -o five.csv
+  ros2 run push_sim collect --pushes 400 --sampling grid --speed 0.05 --duration 0.1 -o fast.csv
+"""
 
 _CHUNK = 50
-_MAX_JOBS = 256
-_push_of_number: Callable[[int], Array]
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What every process has to know."""
+
+    pushes: int
+    seed: int
+    settings: SimSettings
+    design: PushDesign
+    sampling: str
+
+    @property
+    def aim(self) -> Aim:
+        return SAMPLINGS[self.sampling](self.design, Slider().side, self.pushes)
 
 
 def collect(
@@ -30,6 +58,7 @@ def collect(
     profile_name: str = 'irb120',
     design: PushDesign | None = None,
     jobs: int = 1,
+    sampling: str = 'uniform',
 ) -> PushSet:
     """Makes pushes in the simulator; the rows do not depend on the number of processes.
 
@@ -37,43 +66,50 @@ def collect(
         pushes: how many.
         seed: of contact points, directions and noise, not negative.
         profile_name: of the cell; its cameras' noise is in the rows.
-        design: which pushes; default: as the measured ones.
+        design: how the tip pushes; default: as the measured ones.
         jobs: number of processes.
+        sampling: one of `SAMPLINGS`.
+
+    Raises:
+        InputError: the sampling cannot make so many or such long pushes.
+        RunError: a push does not stay on the face.
     """
-    design = design or PushDesign()
-    make = partial(Collector, profile(profile_name), Slider(), design)
-    rows = _rows(make, pushes, seed, jobs)
-    table = np.array(list(tqdm(rows, 'collecting', pushes, unit=' pushes', disable=None)))
-    return PushSet(table[:, 0], table[:, 1], table[:, 2:], design.distance)
+    asked = _Asked(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
+    table = np.array(list(_rows(asked, jobs)))
+    return PushSet(table[:, 0], table[:, 1], table[:, 2:], asked.design.distance)
 
 
-def _rows(make: Callable[[], Collector], pushes: int, seed: int, jobs: int) -> Iterator[Array]:
-    if jobs == 1:
-        collector = make()
-        yield from (collector.push(seed, number) for number in range(pushes))
-        return
-    # a forked physics server would be shared
-    context = multiprocessing.get_context('spawn')
-    with context.Pool(jobs, _start_worker, (make, seed)) as pool:
-        yield from pool.imap(_push_in_worker, range(pushes), _CHUNK)
+def _rows(asked: _Asked, jobs: int) -> Iterator[Array]:
+    """All rows (5,) in order; a wrong sampling fails before the processes start."""
+    _ = asked.aim
+    tasks = ((asked, first) for first in range(0, asked.pushes, _CHUNK))
+    bar: tqdm[Any]
+    with (
+        tqdm(desc='collecting', total=asked.pushes, unit=' pushes', disable=None) as bar,
+        workers(jobs) as run_in,
+    ):
+        for chunk in run_in(_chunk, tasks):
+            bar.update(len(chunk))
+            yield from chunk
 
 
-def _start_worker(make: Callable[[], Collector], seed: int) -> None:
-    global _push_of_number  # noqa: PLW0603
-    _push_of_number = partial(make().push, seed)
-
-
-def _push_in_worker(number: int) -> Array:
-    return _push_of_number(number)
+def _chunk(asked: _Asked, first: int) -> list[Array]:
+    """The rows of a few pushes from a number on."""
+    numbers = range(first, min(first + _CHUNK, asked.pushes))
+    with Collector(asked.settings, Slider(), asked.design, asked.aim) as collector:
+        return [collector.push(asked.seed, number) for number in numbers]
 
 
 def parser() -> Parser:
     """Describes the command line."""
     design = PushDesign()
-    described = Parser('Collects straight pushes in the simulator as a CSV file.')
+    described = Parser('Collects straight pushes in the simulator as a CSV file.', EPILOG)
     described.add_argument('--pushes', type=int, required=True, metavar='N', help='how many')
     described.add_argument('-o', '--output', type=Path, required=True, metavar='FILE')
     described.add_argument('--seed', type=int, default=0, help='of all draws (default 0)')
+    described.add_argument(
+        '--sampling', choices=SAMPLINGS, default='uniform', help='see below (default uniform)'
+    )
     described.add_argument('--profile', choices=PROFILES, default='irb120')
     described.add_argument('--jobs', type=int, default=1, metavar='N', help='processes')
     described.add_argument(
@@ -90,26 +126,22 @@ def work(arguments: argparse.Namespace) -> None:
 
     Raises:
         InputError: a number is out of its range, or the file cannot be written.
+        RunError: a push does not stay on the face.
     """
-    _check_range('--pushes', arguments.pushes, 1, 10**7)
-    _check_range('--seed', arguments.seed, 0, 2**62)
-    _check_range('--jobs', arguments.jobs, 1, _MAX_JOBS)
-    _check_folder(arguments.output)
-    design = PushDesign(speed=arguments.speed, duration=arguments.duration)
-    pushes = collect(arguments.pushes, arguments.seed, arguments.profile, design, arguments.jobs)
+    check_range('--pushes', arguments.pushes, 1, 10**7)
+    check_seed(arguments.seed)
+    check_jobs(arguments.jobs)
+    check_folder(arguments.output)
+    pushes = collect(
+        arguments.pushes,
+        arguments.seed,
+        arguments.profile,
+        PushDesign(speed=arguments.speed, duration=arguments.duration),
+        arguments.jobs,
+        arguments.sampling,
+    )
     write_pushes(arguments.output, pushes)
     sys.stdout.write(f'{len(pushes)} pushes in {arguments.output}\n')
-
-
-def _check_range(name: str, value: int, low: int, high: int) -> None:
-    if not low <= value <= high:
-        raise InputError(f'{name} is {value}, must be between {low} and {high}')
-
-
-def _check_folder(output: Path) -> None:
-    """Fails before the work is done, not after."""
-    if not output.parent.is_dir():
-        raise InputError(f'cannot write {output}: there is no folder {output.parent}')
 
 
 def main(argv: Sequence[str] | None = None) -> int:

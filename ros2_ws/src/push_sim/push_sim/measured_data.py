@@ -1,5 +1,6 @@
 """A folder of measurements: short pushes, long pushes, robot runs, as far as they are there."""
 
+import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce
@@ -37,6 +38,15 @@ class MeasuredData:
         """Which kinds of files are not there."""
         parts = ((SHORT_FILES, self.short), (LONG_FILES, self.long), (RUN_FILES, self.runs))
         return tuple(pattern for pattern, part in parts if not part)
+
+
+def files_hash(folder: Path) -> str:
+    """SHA-256 over the files that are read, in the order of their names."""
+    digest = hashlib.sha256()
+    for pattern in (SHORT_FILES, LONG_FILES, RUN_FILES):
+        for path in sorted(folder.glob(pattern)):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
 
 
 def read_measured_data(folder: Path) -> MeasuredData:

@@ -1,4 +1,8 @@
-"""Measured long pushes, made again in the simulator."""
+"""Measured long pushes, made again in the simulator.
+
+The tip sets out 2 mm before its measured start: some of those lie inside the square, by up to
+0.4 mm.
+"""
 
 from contextlib import closing
 
@@ -10,9 +14,7 @@ from push_sim.quick_world import SPEED, SUBSTEP, quick_world
 from push_sim.settings import WorldSettings
 from push_sim.world import World
 
-RETREAT = 0.002
-"""The tip sets out this far [m] before its measured start: some of those lie inside the square,
-by up to 0.4 mm."""
+_RETREAT = 0.002
 
 
 def replay_long(
@@ -32,15 +34,9 @@ def replay_long(
     return np.reshape(ends, (-1, 3))
 
 
-def set_out(tip_start: Array, tip_end: Array) -> Array:
-    """Points (..., 2) [m] from which the tips set out, a little before their starts (..., 2)."""
-    travel = tip_end - tip_start
-    length = np.linalg.norm(travel, axis=-1, keepdims=True)
-    return np.asarray(tip_start - RETREAT / length * travel)
-
-
 def _end(world: World, start: Array, tip_start: Array, tip_end: Array) -> Array:
-    begin = set_out(tip_start, tip_end)
+    travel = tip_end - tip_start
+    begin = tip_start - _RETREAT * travel / np.linalg.norm(travel)
     steps = max(1, round(float(np.linalg.norm(tip_end - begin)) / (SPEED * SUBSTEP)))
     x, y = ((tip_end - begin) / (steps * SUBSTEP)).tolist()
     world.reset(start, begin)

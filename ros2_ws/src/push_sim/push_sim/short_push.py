@@ -47,7 +47,7 @@ class PushTiming:
 def short_push(
     world: World, slider: Slider, timing: PushTiming, p_y: float, beta: float
 ) -> tuple[Instant, Instant]:
-    """Pushes an object at the origin; settling shifts what is seen at the start of the push.
+    """Pushes an object at the origin; settling moves it before the first look.
 
     Args:
         world: where.

@@ -9,12 +9,13 @@ from pathlib import Path
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
 
+from push_sim.command_checks import check_jobs
 from push_sim.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
 from push_sim.settings import PROFILES, profile
 from push_sim.validation import validation
 from push_sim.validation_json import as_json
 from push_sim.validation_table import validation_table
-from push_sim.workers import check_jobs, usable_cores, workers
+from push_sim.workers import usable_cores, workers
 
 EPILOG = f"""what is read from DIR, as far as it is there:
   {SHORT_FILES:28}short pushes; the simulator repeats each from its p_y and beta

@@ -1,11 +1,7 @@
 """The simulator against measured pushes and runs, side by side with the ellipsoid."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, TypeAlias
 
-import numpy as np
-from numpy.typing import NDArray
 from push_core.accuracy import Accuracy, accuracy
 from push_core.actuator import ActuatorSettings
 from push_core.frames import Array
@@ -15,21 +11,14 @@ from push_core.slider import Slider
 from tqdm import tqdm
 
 from push_sim.actuator_fit import fitted_actuator
-from push_sim.ellipsoid import ELLIPSOID, one_step, rolled_out
+from push_sim.ellipsoid import ELLIPSOID
 from push_sim.measured_data import MeasuredData
-from push_sim.replay_long import replay_long, set_out
-from push_sim.replay_run import replay_run
-from push_sim.replay_short import replay_short
+from push_sim.replay import Bar, Replay
 from push_sim.robot_run import RobotRun
 from push_sim.run_windows import Windows, windows
 from push_sim.settings import SimSettings
 from push_sim.tip_replay import commanded_tip
 from push_sim.workers import Map
-
-Bar: TypeAlias = 'tqdm[Any]'
-
-_CHUNK = 60
-_PATH_STEPS = 500
 
 
 @dataclass(frozen=True)
@@ -59,7 +48,7 @@ class LongComparison:
         file: name of the file.
         pushes: as measured.
         simulated: by the simulator.
-        ellipsoid: by the ellipsoid rolled out.
+        ellipsoid: by the ellipsoid.
     """
 
     file: str
@@ -104,7 +93,7 @@ class Validation:
 def validation(
     data: MeasuredData, settings: SimSettings, slider: Slider, run_in: Map
 ) -> Validation:
-    """Replays everything; shows a bar.
+    """Makes everything again; shows a bar.
 
     Args:
         data: what was measured.
@@ -112,86 +101,40 @@ def validation(
         slider: what was pushed.
         run_in: the processes.
     """
-    short = len(data.short) if data.short else 0
-    total = short + sum(map(len, data.long.values())) + len(data.runs)
+    cuts = [windows(run) for run in data.runs]
+    pushes = [data.short or (), *data.long.values(), *(cut.start for cut in cuts)]
     bar: Bar
-    with tqdm(total=total, desc='replaying', unit=' pushes', disable=None) as bar:
+    # each in both worlds
+    with tqdm(
+        total=2 * sum(map(len, pushes)), desc='replaying', unit=' pushes', disable=None
+    ) as bar:
+        replay = Replay(slider, run_in, bar)
         return Validation(
-            _short(data.short, settings, slider, run_in, bar) if data.short else None,
-            tuple(
-                _long(file, pushes, settings, slider, run_in, bar)
-                for file, pushes in data.long.items()
-            ),
-            tuple(_runs(data.runs, settings, slider, run_in, bar)),
+            _short(replay, settings, data.short) if data.short else None,
+            tuple(_long(replay, settings, *named) for named in data.long.items()),
+            tuple(_run(replay, settings, *pair) for pair in zip(data.runs, cuts, strict=True)),
             data.missing,
         )
 
 
-def _chunks(count: int) -> Iterator[NDArray[np.intp]]:
-    rows = np.arange(count)
-    return (rows[first : first + _CHUNK] for first in range(0, count, _CHUNK))
+def _short(replay: Replay, settings: SimSettings, pushes: PushSet) -> ShortComparison:
+    simulated, ellipsoid = (replay.short(world, pushes) for world in (settings.world, ELLIPSOID))
+    return ShortComparison(pushes, simulated, ellipsoid)
 
 
-def _short(
-    pushes: PushSet, settings: SimSettings, slider: Slider, run_in: Map, bar: Bar
-) -> ShortComparison:
-    tasks = (
-        (settings.world, slider, pushes.inputs[rows], pushes.distance)
-        for rows in _chunks(len(pushes))
-    )
-    simulated = _gathered(run_in(replay_short, tasks), bar)
-    return ShortComparison(pushes, simulated, one_step(ELLIPSOID, pushes.inputs, pushes.distance))
+def _long(replay: Replay, settings: SimSettings, file: str, pushes: LongPushes) -> LongComparison:
+    simulated, ellipsoid = (replay.long(world, pushes) for world in (settings.world, ELLIPSOID))
+    return LongComparison(file, pushes, simulated, ellipsoid)
 
 
-def _long(
-    file: str,
-    pushes: LongPushes,
-    settings: SimSettings,
-    slider: Slider,
-    run_in: Map,
-    bar: Bar,
-) -> LongComparison:
-    columns = (pushes.start, pushes.tip_start, pushes.tip_end)
-    tasks = (
-        (settings.world, slider, *(column[rows] for column in columns))
-        for rows in _chunks(len(pushes))
-    )
-    simulated = _gathered(run_in(replay_long, tasks), bar)
-    begin = set_out(pushes.tip_start, pushes.tip_end)
-    path = np.linspace(begin, pushes.tip_end, _PATH_STEPS + 1, axis=1)
-    return LongComparison(file, pushes, simulated, rolled_out(ELLIPSOID, pushes.start, path))
-
-
-def _runs(
-    runs: tuple[RobotRun, ...],
-    settings: SimSettings,
-    slider: Slider,
-    run_in: Map,
-    bar: Bar,
-) -> Iterator[RunComparison]:
-    tasks = ((run, settings, slider) for run in runs)
-    for comparison in run_in(compared_run, tasks):
-        bar.update()
-        yield comparison
-
-
-def compared_run(run: RobotRun, settings: SimSettings, slider: Slider) -> RunComparison:
-    """One robot run against actuator and world of a plant."""
-    cut = windows(run)
+def _run(replay: Replay, settings: SimSettings, run: RobotRun, cut: Windows) -> RunComparison:
+    simulated, ellipsoid = (replay.windows(world, cut) for world in (settings.world, ELLIPSOID))
     return RunComparison(
         run,
         settings.actuator,
-        fitted_actuator([run], settings.actuator).settings,
+        fitted_actuator(run, settings.actuator).settings,
         commanded_tip(run, settings.actuator),
         cut,
-        replay_run(settings.world, slider, cut),
-        rolled_out(ELLIPSOID, cut.start, cut.tip),
+        simulated,
+        ellipsoid,
     )
-
-
-def _gathered(chunks: Iterator[Array], bar: Bar) -> Array:
-    parts = []
-    for part in chunks:
-        bar.update(len(part))
-        parts.append(part)
-    return np.concatenate(parts)

@@ -8,27 +8,13 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, TypeAlias
 
-from push_core.errors import InputError
-
 Map: TypeAlias = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterator[Any]]
 """Takes a function and its arguments for each task; yields the results in order."""
-
-_MOST = 256
 
 
 def usable_cores() -> int:
     """Cores that this process may use."""
     return len(os.sched_getaffinity(0))
-
-
-def check_jobs(jobs: int) -> None:
-    """Refuses a number of processes that cannot be.
-
-    Raises:
-        InputError: below 1 or above 256.
-    """
-    if not 1 <= jobs <= _MOST:
-        raise InputError(f'--jobs is {jobs}, must be between 1 and {_MOST}')
 
 
 @contextmanager

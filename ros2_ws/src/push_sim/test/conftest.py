@@ -1,26 +1,26 @@
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from push_core.actuator import ActuatorSettings
 from push_core.frames import Array, rotation
 from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
 from push_core.push_csv import write_pushes
 from push_core.push_set import PushSet
 from push_core.settings import replaced
 from push_core.slider import Slider
-from push_sim.collector import Collector, PushDesign
+from push_sim.collector import Collector
 from push_sim.plant import Plant
+from push_sim.push_design import PushDesign
+from push_sim.push_sampling import uniform
 from push_sim.replay_long import replay_long
 from push_sim.replay_run import replay_run
 from push_sim.robot_run import COLUMNS as RUN_COLUMNS
 from push_sim.robot_run import RobotRun
 from push_sim.run_windows import INTERVAL, Windows
-from push_sim.settings import WorldSettings, profile
+from push_sim.settings import SimSettings, WorldSettings, profile
 from push_sim.tip_replay import commanded_tip
 from push_sim.world import World
 from push_sim.worlds import make_world
@@ -76,19 +76,19 @@ def irb120(engine: str, slider: Slider) -> Iterator[Plant]:
     plant.close()
 
 
-MeasureArtificially = Callable[[Path, WorldSettings, ActuatorSettings], Path]
+MeasureArtificially = Callable[[Path, SimSettings], Path]
 
 
 @pytest.fixture(scope='session')
 def measure_artificially() -> MeasureArtificially:
     """Makes a folder of measurements of a plant that is known."""
 
-    def measure(folder: Path, world: WorldSettings, actuator: ActuatorSettings) -> Path:
+    def measure(folder: Path, plant: SimSettings) -> Path:
         (folder / 'robot_runs').mkdir()
-        write_pushes(folder / 'square_4mm_pushes.csv', _short_pushes(world, 48))
-        long = _long_pushes(world, 6)
+        write_pushes(folder / 'square_4mm_pushes.csv', _short_pushes(plant, 48))
+        long = _long_pushes(plant.world, 6)
         _write_table(folder / 'square_50mm_pushes_artificial.csv', LONG_COLUMNS, long)
-        _write_table(folder / 'robot_runs' / 'weave.csv', RUN_COLUMNS, _run(world, actuator))
+        _write_table(folder / 'robot_runs' / 'weave.csv', RUN_COLUMNS, _run(plant))
         return folder
 
     return measure
@@ -98,10 +98,11 @@ def _write_table(path: Path, names: tuple[str, ...], table: Array) -> None:
     np.savetxt(path, table, delimiter=',', header=','.join(names), comments='')
 
 
-def _short_pushes(world: WorldSettings, count: int) -> PushSet:
-    collector = Collector(replace(profile('ideal'), world=world), Slider(), PushDesign())
-    rows = np.array([collector.push(3, number) for number in range(count)])
-    return PushSet(rows[:, 0], rows[:, 1], rows[:, 2:], PushDesign().distance)
+def _short_pushes(plant: SimSettings, count: int) -> PushSet:
+    slider, design = Slider(), PushDesign()
+    with Collector(plant, slider, design, uniform(design, slider.side, count)) as collector:
+        rows = np.array([collector.push(3, number) for number in range(count)])
+    return PushSet(rows[:, 0], rows[:, 1], rows[:, 2:], design.distance)
 
 
 def _long_pushes(world: WorldSettings, count: int) -> Array:
@@ -119,13 +120,13 @@ def _long_pushes(world: WorldSettings, count: int) -> Array:
     return np.hstack((start, end, tip[:, 0], tip[:, 1]))
 
 
-def _run(world: WorldSettings, actuator: ActuatorSettings) -> Array:
+def _run(plant: SimSettings) -> Array:
     """Rows (n, 8) of three seconds: a square is pushed along x by a tip that weaves."""
     time = 0.002 * np.arange(1501)
     commanded = np.column_stack((0.04 * time, 0.004 * np.sin(2.5 * time)))
     still = np.tile([0.049750001, 0.0, 0.0], (time.size, 1))
     asked = RobotRun('weave.csv', time, still, commanded, np.zeros_like(commanded))
-    sensed = commanded_tip(asked, actuator)
+    sensed = commanded_tip(asked, plant.actuator)
     every = round(INTERVAL / 0.002)
     path = sensed[::every]
     # the object is right at the edges of the windows, which is where it is compared
@@ -133,7 +134,7 @@ def _run(world: WorldSettings, actuator: ActuatorSettings) -> Array:
     for first in range(0, len(path) - 1, _WINDOW_POINTS):
         tip = path[first : first + _WINDOW_POINTS + 1]
         cut = Windows(poses[-1][None], poses[-1][None], tip[None])
-        poses.append(replay_run(world, Slider(), cut)[0])
+        poses.append(replay_run(plant.world, Slider(), cut)[0])
     marks = np.arange(len(poses)) * _WINDOW_POINTS * INTERVAL
     pose = np.column_stack([np.interp(time, marks, axis) for axis in np.array(poses).T])
     return np.column_stack((time, pose, commanded, sensed))

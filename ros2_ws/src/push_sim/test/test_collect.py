@@ -3,14 +3,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from push_core.die import five_of_a_die
 from push_core.motion_cone import MotionCone
 from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
 from push_core.slider import Slider
 from push_sim.bullet_world import BulletWorld
 from push_sim.collect import collect, main
-from push_sim.collector import Collector, PushDesign
+from push_sim.push_design import PushDesign
+from push_sim.quick_world import quick_world
 from push_sim.settings import profile
+from push_sim.short_push import short_push
 
 
 def test_the_same_seed_collects_the_same_file_with_any_number_of_processes(tmp_path: Path):
@@ -57,10 +60,10 @@ def test_the_cameras_noise_is_in_the_rows(pushes: PushSet) -> None:
 
 
 def test_long_steps_do_not_change_a_push(slider: Slider) -> None:
-    collector = Collector(profile('ideal'), slider, PushDesign())
+    world = quick_world(profile('ideal').world, slider)
     fine = BulletWorld(profile('ideal').world, slider)
     for p_y, beta in [(0.02, 1.2), (-0.03, 2.0), (0.0, 0.5)]:
-        _, after = collector.seen(p_y, beta)
+        _, after = short_push(world, slider, PushDesign().timing, p_y, beta)
         fine.reset(np.zeros(3), slider.tip_position(np.zeros(3), p_y))
         fine.advance((0.02 * math.sin(beta), 0.02 * math.cos(beta)), 240)
         assert np.all(np.abs(after.object_pose - fine.object_pose) < [2e-5, 2e-5, 3e-4])
@@ -74,6 +77,10 @@ def test_long_steps_do_not_change_a_push(slider: Slider) -> None:
         (['--pushes', '5', '--speed', '0', '-o', 'x.csv'], 'speed'),
         (['--pushes', '5', '--duration', '0.1234', '-o', 'x.csv'], 'duration'),
         (['--pushes', '5', '-o', 'missing/x.csv'], 'missing'),
+        (['--pushes', '5', '-o', '.'], 'is a folder'),
+        (['--pushes', '5', '--jobs', '0', '-o', 'x.csv'], '--jobs'),
+        (['--pushes', '5', '--sampling', 'grid', '-o', 'x.csv'], '4 or 9'),
+        (['--pushes', '4', '--sampling', 'grid', '--duration', '3', '-o', 'x.csv'], '--duration'),
     ],
 )
 def test_a_wrong_command_is_one_line_and_status_2(
@@ -85,6 +92,30 @@ def test_a_wrong_command_is_one_line_and_status_2(
     assert error.count('\n') == 1
     assert named in error
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_grid_covers_face_and_directions_evenly(slider: Slider) -> None:
+    design = PushDesign()
+    pushes = collect(9, 0, 'ideal', sampling='grid')
+    # settling shifts contact and direction by a little
+    beta = pushes.beta.reshape(3, 3).mean(axis=0)
+    assert np.diff(beta) == pytest.approx([2.0 * design.steepest / 3.0] * 2, abs=0.02)
+    p_y = pushes.p_y.reshape(3, 3).mean(axis=1)
+    spacing = 2.0 * (slider.side / 2.0 - design.reach) / 3.0
+    assert np.diff(p_y) == pytest.approx([spacing] * 2, abs=1e-3)
+
+
+def test_the_five_of_a_die_come_in_turn(slider: Slider) -> None:
+    pushes = collect(10, 0, 'ideal', sampling='die')
+    expected = np.tile(five_of_a_die(slider.side / 2.0), (2, 1))
+    assert np.all(np.abs(pushes.inputs - expected) < [0.8e-3, 0.015])
+    assert np.array_equal(pushes.displacement[:5], pushes.displacement[5:])
+
+
+def test_pushes_longer_than_the_face_are_refused(capsys) -> None:
+    arguments = ['--pushes', '1', '--speed', '0.5', '--duration', '10', '-o', 'x.csv']
+    assert main(arguments) == 2
+    assert 'shorter' in capsys.readouterr().err
 
 
 def test_a_collection_is_written_as_it_was_made(tmp_path: Path) -> None:

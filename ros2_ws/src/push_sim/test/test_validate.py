@@ -14,12 +14,12 @@ from push_sim.tip_replay import rms_coordinate, tip_gap
 from push_sim.validate import main
 
 ACTUATOR = replace(profile('irb120').actuator, dead_time=0.0713, lag=0.0334)
+PLANT = replace(profile('ideal'), actuator=ACTUATOR)
 
 
 @pytest.fixture(scope='module')
 def folder(measure_artificially, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    plant = profile('irb120')
-    return measure_artificially(tmp_path_factory.mktemp('data'), plant.world, ACTUATOR)
+    return measure_artificially(tmp_path_factory.mktemp('data'), PLANT)
 
 
 @pytest.fixture(scope='module')
@@ -59,7 +59,7 @@ def test_the_lag_of_a_run_is_identified_within_a_millisecond(figures: dict) -> N
 def test_the_fit_of_the_lag_does_not_depend_on_where_it_starts(folder: Path) -> None:
     (run,) = read_measured_data(folder).runs
     for dead_time, lag in ((0.0, 0.0), (0.15, 0.01)):
-        found = fitted_actuator([run], ActuatorSettings(dead_time=dead_time, lag=lag))
+        found = fitted_actuator(run, ActuatorSettings(dead_time=dead_time, lag=lag))
         assert rms_coordinate(tip_gap(run, found.settings)) < 1e-5
 
 
