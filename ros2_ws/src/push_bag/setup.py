@@ -12,7 +12,7 @@ setup(
         ('share/push_bag', ['package.xml']),
     ],
     install_requires=['setuptools'],
-    extras_require={'test': ['pytest']},
+    extras_require={'test': ['pytest'], 'parquet': ['pyarrow==25.0.1']},
     zip_safe=False,
     entry_points={
         'console_scripts': [
@@ -21,6 +21,9 @@ setup(
             'info = push_bag.info:main',
             'replay = push_bag.replay:main',
             'recover = push_bag.recover:main',
+            'bench = push_bag.recorder_bench:main',
+            'export = push_bag.export:main',
+            'import-csv = push_bag.import_csv:main',
         ],
     },
 )

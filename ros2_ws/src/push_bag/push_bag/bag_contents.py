@@ -11,7 +11,7 @@ from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Metadata, Schema, Statistics
 
-from push_bag.bag_writer import FACTS_RECORD, TOPIC_RECORD
+from push_bag.bag_writer import COUNTS_RECORD, FACTS_RECORD, TOPIC_RECORD
 from push_bag.mcap_stream import DamagedError, RawRecord
 from push_bag.topic import Topic
 
@@ -25,6 +25,7 @@ class BagContents:
         facts: of the run.
         attachments: whole files by name.
         finished: whether the file came to its proper end.
+        middleware_lost: messages by topic of which the middleware told the recorder.
         statistics: what the file says it holds; None where it does not say.
     """
 
@@ -34,6 +35,7 @@ class BagContents:
         self.facts: dict[str, str] = {}
         self.attachments: dict[str, bytes] = {}
         self.finished = False
+        self.middleware_lost: dict[str, int] = {}
         self.statistics: Statistics | None = None
         self._schemas: dict[int, Schema] = {}
         self._note: dict[int, Callable[[ReadDataStream], None]] = {
@@ -56,7 +58,7 @@ class BagContents:
             return
         try:
             note(ReadDataStream(BytesIO(record.body)))
-        except (McapError, ValueError, KeyError, struct.error) as error:
+        except (McapError, ValueError, KeyError, TypeError, struct.error) as error:
             raise DamagedError(f'a record is not readable ({error})') from None
 
     def _note_schema(self, body: ReadDataStream) -> None:
@@ -80,8 +82,16 @@ class BagContents:
         metadata = Metadata.read(body)
         if metadata.name == FACTS_RECORD:
             self.facts = dict(metadata.metadata)
+        elif metadata.name == COUNTS_RECORD:
+            self._note_counts(metadata.metadata)
         elif metadata.name == TOPIC_RECORD:
             self._note_spare_topic(metadata.metadata)
+
+    def _note_counts(self, counts: dict[str, str]) -> None:
+        told = {topic: json.loads(text)['middleware_lost'] for topic, text in counts.items()}
+        self.middleware_lost = {
+            topic: int(lost) for topic, lost in told.items() if lost is not None
+        }
 
     def _note_spare_topic(self, record: dict[str, str]) -> None:
         if str(zlib.crc32(record['topic'].encode())) != record['crc32']:

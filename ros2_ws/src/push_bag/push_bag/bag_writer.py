@@ -18,6 +18,7 @@ from push_bag.rosbag2_metadata import Span, TopicSummary, write_metadata
 CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
 FACTS_RECORD = 'run'
 TOPIC_RECORD = 'topic'  # a second copy, for whoever has to do without the first chunk
+COUNTS_RECORD = 'recording'  # what the recorder received and lost, written last
 LARGEST_SEQUENCE = 0xFFFFFFFF
 
 
@@ -116,6 +117,14 @@ class BagWriter:
         self.counts[name] += 1
         self._first_ns = log_ns if self._first_ns is None else min(log_ns, self._first_ns)
         self._last_ns = max(log_ns, self._last_ns)
+
+    def note(self, name: str, facts: Mapping[str, str]) -> None:
+        """Writes down some facts where the file is now.
+
+        Raises:
+            RunError: the file cannot be written; the recording has ended.
+        """
+        self._attempt(lambda: self._writer.add_metadata(name, dict(facts)))
 
     def flush(self) -> None:
         """Hands everything written so far to the operating system, as a whole chunk.

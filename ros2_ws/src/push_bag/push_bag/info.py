@@ -34,11 +34,12 @@ def bag_text(reader: BagReader) -> str:
 
 
 def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
-    rows = [('topic', 'type', 'received', 'lost', 'rate [1/s]')]
+    rows = [('topic', 'type', 'received', 'lost', 'rate [1/s]', 'longest gap [ms]')]
     for name, topic in sorted(reader.topics.items()):
         seen = traffic.get(name, Traffic())
         lost = str(seen.lost) if seen.numbered or not seen.received else '?'
-        rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}'))
+        gap = f'{seen.longest_ns * 1e-6:.1f}'
+        rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}', gap))
     widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
     return [_aligned(row, widths) for row in rows]
 

@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from rclpy.event_handler import QoSSubscriptionEventType, UnsupportedEventTypeError
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -43,6 +45,15 @@ class RawSubscription:
         self._subscription: Any = node.create_subscription(
             self._type, topic, _ignore, _matching(offered), raw=True
         )
+        self._loss_event = _loss_event(self._subscription)
+
+    @property
+    def middleware_lost(self) -> int:
+        """Messages that the middleware itself says it lost; 0 where it never says."""
+        if self._loss_event is None:
+            return 0
+        with self._loss_event:
+            return int(self._loss_event.take_event().total_count)
 
     def take_all(self) -> Iterator[RawMessage]:
         """All messages that have come since the last call, oldest first."""
@@ -56,6 +67,16 @@ class RawSubscription:
                     about['source_timestamp'],
                     about['publication_sequence_number'] or 0,
                 )
+
+
+def _loss_event(subscription: Any) -> Any:
+    """What tells of losses; polled like the messages, so that no executor is needed."""
+    kind = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
+    try:
+        with subscription.handle:
+            return rclpy_implementation.EventHandle(subscription.handle, kind)
+    except UnsupportedEventTypeError:
+        return None
 
 
 def _ignore(_message: object) -> None:

@@ -17,7 +17,8 @@ from push_bag.recorder_settings import RecorderSettings, read_attachments, read_
 from push_bag.recording import Recording
 from push_bag.traffic import lost_text
 
-DISCOVERY_PERIOD = 0.1  # [s]
+DISCOVERY_PERIOD = 0.1  # [s] while topics of the cell are missing
+LATER_DISCOVERY_PERIOD = 1.0  # [s] for what comes while running
 REPORT_PERIOD = 1.0  # [s]
 
 
@@ -28,7 +29,7 @@ class Recorder(Node):  # type: ignore[misc]
         super().__init__('recorder')
         settings = declared(self, RecorderSettings())
         offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
-        others = {self.resolve_topic_name(name) for name in split_list(settings.topics)}
+        others = {self._full_name(name) for name in split_list(settings.topics)}
         self._core = {self.resolve_topic_name(topic.name) for topic in CELL_TOPICS if topic.core}
         self._writer = open_bag(settings)
         self._recording = Recording(self._writer, {*offers, *others}, offers)
@@ -47,10 +48,16 @@ class Recorder(Node):  # type: ignore[misc]
             self._recording.close()
         finally:
             lost = lost_text(self._recording.traffic)
-            sys.stderr.write(f'recorder: {lost}, in {self._writer.path}\n')
+            sys.stderr.write(f'recorder: {lost}; {self._writer.path}\n')
             super().destroy_node()
         if self._failure is not None:
             raise self._failure
+
+    def _full_name(self, name: str) -> str:
+        """A topic or a pattern of topics with the namespace before it."""
+        if not any(letter in name for letter in '*?['):
+            return str(self.resolve_topic_name(name))
+        return name if name.startswith('/') else f'{self.get_namespace().rstrip("/")}/{name}'
 
     def _start_timers(self, settings: RecorderSettings) -> None:
         # the recorder goes on while simulated time stands still
@@ -59,7 +66,7 @@ class Recorder(Node):  # type: ignore[misc]
         flush = self._guarded(self._recording.flush)
         self.create_timer(settings.poll_period, drain, clock=steady)
         self.create_timer(settings.flush_period, flush, clock=steady)
-        self.create_timer(DISCOVERY_PERIOD, self._discover, clock=steady)
+        self._discovery = self.create_timer(DISCOVERY_PERIOD, self._discover, clock=steady)
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
 
     def _guarded(self, work: Callable[[], None]) -> Callable[[], None]:
@@ -84,6 +91,7 @@ class Recorder(Node):  # type: ignore[misc]
             self.get_logger().warning(f'{topic}: {self._recording.refused[topic]}')
         if not self._was_complete and not self._missing():
             self._was_complete = True
+            self._discovery.timer_period_ns = round(LATER_DISCOVERY_PERIOD * 1e9)
             self._report()
 
     def _report(self) -> None:
@@ -99,7 +107,8 @@ class Recorder(Node):  # type: ignore[misc]
 
     def _counts(self) -> dict[str, str]:
         return {
-            topic: f'{seen.received} received, {seen.lost} lost'
+            topic: f'{seen.received} received, {seen.lost} lost, '
+            f'{seen.middleware_lost or 0} told of by the middleware'
             for topic, seen in self._recording.traffic.items()
         }
 

@@ -15,12 +15,18 @@ class RecorderSettings:
     folder: str = setting('', 'new folder of the run')
     facts_file: str = setting('', 'JSON object with the facts of the run; empty for none')
     attachments: str = setting('', 'files to keep in the bag, separated by commas')
-    topics: str = setting('', 'topics to record beside those of the cell, separated by commas')
+    topics: str = setting(
+        '', 'topics or patterns (/arm/*) to record beside those of the cell, separated by commas'
+    )
     poll_period: float = setting(
-        0.005, 'time between two looks for new messages', unit='s', low=0.001, high=0.1
+        0.02, 'time between two looks for new messages', unit='s', low=0.001, high=0.1
     )
     flush_period: float = setting(
-        0.25, 'time between two chunks: what a kill can lose', unit='s', low=0.05, high=10.0
+        0.25,
+        'time between two chunks: with poll_period what a kill can lose',
+        unit='s',
+        low=0.05,
+        high=10.0,
     )
 
     def __post_init__(self) -> None:

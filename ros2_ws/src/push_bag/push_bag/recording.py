@@ -1,13 +1,15 @@
 """A recording in progress: finds publishers, takes their messages, writes them to the bag."""
 
+import json
 from collections.abc import Collection, Mapping
+from fnmatch import fnmatchcase
 
 import rclpy
 from push_core.errors import InputError
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from push_bag.bag_writer import BagWriter
+from push_bag.bag_writer import COUNTS_RECORD, BagWriter
 from push_bag.qos_text import qos_text
 from push_bag.raw_subscription import RawSubscription
 from push_bag.traffic import Traffic
@@ -28,7 +30,7 @@ class Recording:
 
         Args:
             writer: the open bag; closed by `close`.
-            topics: full names of the topics to record.
+            topics: full names of the topics to record, or patterns of names such as `/arm/*`.
             offers: what is known of the publishers' profiles by topic; discovery does not tell
                 their depth, so the bag states these where it can.
         """
@@ -49,7 +51,8 @@ class Recording:
     def discover(self) -> None:
         """Subscribes to the wanted topics that have a publisher by now."""
         for topic, types in self._listener.get_topic_names_and_types():
-            if topic in self._topics and topic not in self.traffic and topic not in self.refused:
+            known = topic in self.traffic or topic in self.refused
+            if not known and any(fnmatchcase(topic, wanted) for wanted in self._topics):
                 self._subscribe(topic, types[0])
 
     def drain(self) -> None:
@@ -65,12 +68,14 @@ class Recording:
                 seen.saw(taken.sequence, taken.received_ns)
 
     def flush(self) -> None:
-        """Ends the chunk in progress, so that a kill loses nothing older.
+        """Ends the chunk in progress, so that a kill loses nothing older, and asks for losses.
 
         Raises:
             RunError: the bag cannot be written.
         """
         self._writer.flush()
+        for topic, subscription in self._subscriptions.items():
+            self.traffic[topic].middleware_lost = subscription.middleware_lost
 
     def close(self) -> None:
         """Takes what still waits and finishes the bag.
@@ -81,9 +86,24 @@ class Recording:
         try:
             if self._writer.is_open:
                 self.drain()
+                self.flush()
+                self._writer.note(COUNTS_RECORD, self._counts())
                 self._writer.close()
         finally:
             self._listener.destroy_node()
+
+    def _counts(self) -> dict[str, str]:
+        """What was received and lost of each topic, for the bag."""
+        return {
+            topic: json.dumps(
+                {
+                    'received': seen.received,
+                    'lost': seen.lost,
+                    'middleware_lost': seen.middleware_lost,
+                }
+            )
+            for topic, seen in self.traffic.items()
+        }
 
     def _subscribe(self, topic: str, type_name: str) -> None:
         publishers = self._listener.get_publishers_info_by_topic(topic)

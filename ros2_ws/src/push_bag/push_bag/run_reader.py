@@ -82,6 +82,8 @@ class _Rows:
         Raises:
             InputError: a message is not of its topic's type.
         """
+        for name, lost in reader.contents.middleware_lost.items():
+            self.traffic.setdefault(name, Traffic()).middleware_lost = lost
         tables = {name: table.stamped() for name, table in self._tables.items()}
         return RunSeries(
             facts=reader.facts,

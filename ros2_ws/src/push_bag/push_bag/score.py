@@ -111,6 +111,7 @@ def messages(run: RunSeries) -> dict[str, dict[str, int | None]]:
         topic: {
             'received': seen.received,
             'lost': _lost(seen, stamps.get(short_name(topic))),
+            'middleware_lost': seen.middleware_lost,
         }
         for topic, seen in sorted(run.traffic.items())
     }

@@ -2,7 +2,7 @@
 
 pose to command = publish time of a command - publish time of the pose that carries its stamp;
 a deadline miss is a pose in TRACKING whose command came more than DEADLINE later, or never.
-A run in one process has no middleware and therefore no pose to command.
+A run in one process or from a file has no middleware and therefore no pose to command.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from push_bag.series import Floats, RunSeries
 from push_bag.tracking import during_tracking
 
 DEADLINE = 0.010  # [s]
-WITHOUT_MIDDLEWARE = 'inprocess'  # the fact `mode` of such a run
+WITHOUT_MIDDLEWARE = ('inprocess', 'robot')  # the fact `mode` of such runs
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def _answers(run: RunSeries) -> tuple[Floats, int]:
     index, answered = run.commands.at(run.object.stamp[tracked])
     sent = run.object.published[tracked][answered]
     unanswered = int(np.count_nonzero(~answered))
-    if run.facts.get('mode') == WITHOUT_MIDDLEWARE:
+    if run.facts.get('mode') in WITHOUT_MIDDLEWARE:
         return np.zeros(0), unanswered
     latency: Floats = (run.commands.published[index[answered]] - sent).astype(np.float64) * 1e-6
     return latency, unanswered

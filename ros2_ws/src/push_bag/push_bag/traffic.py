@@ -13,6 +13,8 @@ class Traffic:
         numbered: whether any message carried a sequence number.
         first_ns: log time of the first message, 0 before it.
         last_ns: log time of the last message.
+        longest_ns: longest time between two messages.
+        middleware_lost: what the middleware itself said it lost; None where it was not asked.
     """
 
     def __init__(self) -> None:
@@ -20,6 +22,8 @@ class Traffic:
         self.numbered = False
         self.first_ns = 0
         self.last_ns = 0
+        self.longest_ns = 0
+        self.middleware_lost: int | None = None
         self._gaps = SequenceGaps()
 
     def saw(self, sequence: int, log_ns: int) -> None:
@@ -30,8 +34,11 @@ class Traffic:
             log_ns: when it was received [ns].
         """
         self.received += 1
-        self.first_ns = self.first_ns or log_ns
-        self.last_ns = max(self.last_ns, log_ns)
+        if self.first_ns == 0:
+            self.first_ns = self.last_ns = log_ns
+        elif log_ns > self.last_ns:
+            self.longest_ns = max(self.longest_ns, log_ns - self.last_ns)
+            self.last_ns = log_ns
         if sequence:
             self.numbered = True
             self._gaps.saw(sequence)
@@ -52,4 +59,7 @@ def lost_text(traffic: Mapping[str, Traffic]) -> str:
     """One line over all topics, such as `0 of 14130 messages lost`."""
     lost = sum(each.lost for each in traffic.values())
     sent = lost + sum(each.received for each in traffic.values())
-    return f'{lost} of {sent} messages lost'
+    named = ', '.join(f'{name} {each.lost}' for name, each in traffic.items() if each.lost)
+    told = sum(each.middleware_lost or 0 for each in traffic.values())
+    text = f'{lost} of {sent} messages lost' + (f': {named}' if named else '')
+    return text + (f'; the middleware tells of {told}' if told else '')

@@ -14,8 +14,10 @@ from push_bag.message_types import message_class
 from push_bag.reader import BagReader
 from push_bag.recorder import open_bag
 from push_bag.recorder_settings import RecorderSettings
+from push_bag.recover import recover
 from push_core.errors import InputError
 from rclpy.node import Node
+from std_msgs.msg import String
 
 pytestmark = pytest.mark.processes
 
@@ -107,6 +109,7 @@ def test_every_message_is_recorded_and_a_signal_finishes_the_bag(cell, start, tm
     assert reader.facts == {'profile': 'irb120', 'seed': '3'}
     assert reader.attachments == {'facts.json': facts.read_bytes()}
     assert reader.finished
+    assert set(reader.contents.middleware_lost) >= set(counts)
     assert (folder / 'metadata.yaml').exists()
 
 
@@ -129,6 +132,39 @@ def test_a_wrong_parameter_is_one_line_and_status_2(start, tmp_path):
     assert recorder.returncode == 2
     assert errors.count('\n') == 1
     assert 'exists already' in errors
+
+
+def test_topics_that_appear_later_are_recorded_by_pattern(cell, start, tmp_path):
+    recorder = start(f'folder:={tmp_path / "run"}', "topics:='/arm/*'")
+    wait_until(cell.is_heard)
+    late = cell.create_publisher(String, '/arm/joint', 10)
+    wait_until(late.get_subscription_count)
+    late.publish(String(data='here'))
+    recorder.send_signal(signal.SIGINT)
+    recorder.communicate(timeout=10)
+    assert [each.data[8:12] for each in BagReader(tmp_path / 'run').records(['/arm/joint'])] == [
+        b'here'
+    ]
+
+
+def test_a_killed_recording_is_recovered_without_a_hole(cell, start, tmp_path):
+    recorder = start(f'folder:={tmp_path / "run"}')
+    wait_until(cell.is_heard)
+    (bag,) = (tmp_path / 'run').glob('*.mcap')
+    head = bag.stat().st_size
+    sent = 0
+    while bag.stat().st_size < head + 20_000:
+        for topic in CORE:
+            cell.send(topic.name)
+        sent += 1
+        time.sleep(0.003)
+    recorder.kill()
+    recorder.wait()
+    found = recover(tmp_path / 'run', tmp_path / 'saved')
+    numbers = [each.sequence for each in BagReader(tmp_path / 'saved').records(['/object_pose'])]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert 0 < len(numbers) <= sent
+    assert 'cut short' in found.text()
 
 
 @pytest.mark.parametrize(

@@ -67,4 +67,6 @@ def test_the_rate_is_that_between_first_and_last():
 
 
 def test_the_text_counts_sent_messages():
-    assert lost_text({'/a': counted([1, 2, 5]), '/b': counted([1])}) == '2 of 6 messages lost'
+    assert (
+        lost_text({'/a': counted([1, 2, 5]), '/b': counted([1])}) == '2 of 6 messages lost: /a 2'
+    )

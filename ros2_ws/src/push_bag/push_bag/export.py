@@ -1,0 +1,81 @@
+"""`push_bag export RUN --csv|--parquet -o FILE`: the run as one table for other programs."""
+
+import argparse
+import csv
+import io
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from push_core.atomic_file import write_atomically
+from push_core.command_line import Parser, run_command
+from push_core.errors import InputError
+
+from push_bag.run_reader import read_run
+from push_bag.tick_table import Table, tick_table
+
+EPILOG = """
+One row for each tick of the controller, in SI units; the names of the columns end with the unit.
+Empty (CSV) or null (Parquet) where a tick has no such figure. --parquet needs pyarrow, which is
+large and which nothing else here uses: pip install pyarrow==25.0.1
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exports a run."""
+    return run_command(_parser(), _work, argv)
+
+
+def csv_bytes(table: Table) -> bytes:
+    """The table as CSV; every number comes back as it was."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator='\n')
+    writer.writerow(table)
+    columns = (_texts(column) for column in table.values())
+    writer.writerows(zip(*columns, strict=True))
+    return text.getvalue().encode()
+
+
+def parquet_bytes(table: Table) -> bytes:
+    """The table as Parquet.
+
+    Raises:
+        InputError: pyarrow is not installed.
+    """
+    try:
+        # large, and only this option needs it
+        import pyarrow  # noqa: PLC0415
+        import pyarrow.parquet  # noqa: PLC0415
+    except ImportError:
+        raise InputError('--parquet needs pyarrow: pip install pyarrow') from None
+    columns = {name: pyarrow.array(each, from_pandas=True) for name, each in table.items()}
+    sink = io.BytesIO()
+    pyarrow.parquet.write_table(pyarrow.table(columns), sink)
+    return sink.getvalue()
+
+
+def _texts(column: NDArray[np.float64] | NDArray[np.int64]) -> list[str]:
+    return ['' if math.isnan(value) else repr(value) for value in column.tolist()]
+
+
+def _parser() -> Parser:
+    parser = Parser('Writes a run as one table, a row for each tick.', EPILOG)
+    parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    kind = parser.add_mutually_exclusive_group(required=True)
+    kind.add_argument('--csv', dest='write', action='store_const', const=csv_bytes)
+    kind.add_argument('--parquet', dest='write', action='store_const', const=parquet_bytes)
+    parser.add_argument('-o', '--output', type=Path, required=True, metavar='FILE')
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    table = tick_table(read_run(arguments.run))
+    write_atomically(arguments.output, arguments.write(table))
+    sys.stdout.write(f'{len(table["t_s"])} rows\n{arguments.output}\n')
+
+
+if __name__ == '__main__':
+    sys.exit(main())
