@@ -17,6 +17,7 @@ setup(
     entry_points={
         'console_scripts': [
             'sim_node = push_sim.sim_node:main',
+            'bench = push_sim.bench:main',
             'collect = push_sim.collect:main',
             'validate = push_sim.validate:main',
             'calibrate = push_sim.calibrate:main',

@@ -15,6 +15,10 @@ PERIOD = 0.01
 """Time [s] from one exposure to the next; commands are answered as often."""
 
 
+ENGINES = ('bullet', 'quasi_static')
+"""What can move the bodies."""
+
+
 @dataclass(frozen=True)
 class WorldSettings:
     """The rigid bodies, their friction, and how finely time is cut."""
@@ -22,7 +26,7 @@ class WorldSettings:
     engine: str = setting(
         'bullet',
         'physics; quasi_static: the motion cone of an ellipsoid, no inertia',
-        choices=('bullet', 'quasi_static'),
+        choices=ENGINES,
     )
     substep: float = setting(
         0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD

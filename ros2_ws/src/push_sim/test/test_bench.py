@@ -1,0 +1,30 @@
+import json
+
+import pytest
+from push_core.settings import replaced
+from push_core.slider import Slider
+from push_sim.bench import main
+from push_sim.plant_speed import memory_growth
+from push_sim.settings import profile
+
+
+def test_it_measures_and_says_so_in_one_json_object(capsys) -> None:
+    assert main(['--engine', 'quasi_static', '--resets', '5', '--json']) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert figures['engine'] == 'quasi_static'
+    assert figures['real_time_factor'] > 0.0
+    assert figures['pushes_per_s'] > 0.0
+
+
+def test_it_refuses_a_number_of_resets_that_makes_no_sense(capsys) -> None:
+    assert main(['--resets', '0']) == 2
+    assert 'must be between 1 and' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'resets'),
+    [('engine', 'bullet', 2000), ('engine', 'quasi_static', 500), ('pressure', 'random', 200)],
+)
+def test_resets_leave_the_memory_as_it_is(slider: Slider, name, value, resets) -> None:
+    settings = replaced(profile('irb120'), {f'world.{name}': value})
+    assert abs(memory_growth(settings, slider, resets)) < 2.0
