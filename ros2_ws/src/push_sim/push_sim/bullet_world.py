@@ -30,6 +30,7 @@ from push_sim.table_friction import TableFriction
 
 _CONTACT_RANGE = 1e-3
 _FOLLOW_TIME = 0.01
+_USUAL_STEP = 1e-3
 _ASIDE = (0.0, 0.0, 10.0)
 _REST = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -195,7 +196,8 @@ class BulletWorld:
         pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
             numSolverIterations=settings.solver_iterations,
-            solverResidualThreshold=settings.solver_residual,
+            # impulses grow with the step: the same error of the forces in any step
+            solverResidualThreshold=settings.solver_residual * (substep / _USUAL_STEP) ** 2,
             contactBreakingThreshold=_CONTACT_RANGE,
             enableConeFriction=1,
             deterministicOverlappingPairs=1,

@@ -88,7 +88,7 @@ class Plant:
 
     def command(self, velocity: Array, arrival: float) -> None:
         """Hands a tip velocity (2,) [m/s] to the driver at a plant time [s], now or later."""
-        if np.any(velocity):
+        if any(velocity):
             self._schedule.motion_commanded(arrival)
         self._driver.command(velocity, arrival)
 

@@ -12,8 +12,10 @@ from pathlib import Path
 import numpy as np
 from push_core.slider import Slider
 
-from push_sim.collector import Collector, PushDesign
+from push_sim.collector import Collector
 from push_sim.plant import Plant
+from push_sim.push_design import PushDesign
+from push_sim.push_sampling import uniform
 from push_sim.settings import PERIOD, SimSettings
 
 _PERIODS = 200
@@ -33,13 +35,15 @@ def real_time_factor(settings: SimSettings, slider: Slider) -> float:
 
 def pushes_per_second(settings: SimSettings, slider: Slider) -> float:
     """Pushes that are collected in a second by one process; the best of a few."""
-    collector = Collector(settings, slider, PushDesign())
+    design = PushDesign()
+    aim = uniform(design, slider.side, _PUSHES)
+    with Collector(settings, slider, design, aim) as collector:
 
-    def collect() -> None:
-        for number in range(_PUSHES):
-            collector.push(0, number)
+        def collect() -> None:
+            for number in range(_PUSHES):
+                collector.push(0, number)
 
-    return _PUSHES / min(_seconds(collect) for _ in range(_REPEATS))
+        return _PUSHES / min(_seconds(collect) for _ in range(_REPEATS))
 
 
 def memory_growth(settings: SimSettings, slider: Slider, resets: int) -> float:

@@ -1,6 +1,6 @@
 """The plant's world with long time steps, for pushes that are slow.
 
-A quasi-static push comes out the same with steps of 5 ms as with 1 ms (2 um rms of 4 mm), five
+A quasi-static push comes out the same with steps of 5 ms as with 1 ms (3 um rms of 4 mm), five
 times faster.
 """
 
