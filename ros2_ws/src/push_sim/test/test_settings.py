@@ -3,6 +3,7 @@ from push_core.errors import InputError
 from push_core.settings import flatten, replaced
 from push_sim.node_settings import NodeSettings, node_settings
 from push_sim.settings import PROFILES, profile
+from push_sim.sim_node import main
 
 
 @pytest.mark.parametrize(
@@ -12,6 +13,12 @@ from push_sim.settings import PROFILES, profile
         ('world.support_radius', 0.0),
         ('world.substep', 0.0),
         ('world.substep', 0.003),
+        ('world.engine', 'ode'),
+        ('world.pressure', 'elsewhere'),
+        ('world.friction_variation', -0.1),
+        ('world.friction_anisotropy', 0.0),
+        ('world.mass_error', -1.0),
+        ('world.size_error', -1.0),
         ('sensor.position_noise', -1e-3),
         ('perturbation.kind', 'sideways'),
         ('command_timeout', float('nan')),
@@ -21,6 +28,24 @@ from push_sim.settings import PROFILES, profile
 def test_a_value_out_of_range_is_refused_by_name(name: str, value: object) -> None:
     with pytest.raises(InputError, match=name):
         replaced(profile('irb120'), {name: value})
+
+
+@pytest.mark.parametrize(
+    ('argument', 'told'),
+    [
+        ('world.friction_ground:=-0.1', 'world.friction_ground is -0.1, must be between 0.01 and'),
+        ('world.substep:=0.003', 'world.substep is 0.003, must divide 0.01 s'),
+        ('world.engine:=ode', "world.engine is 'ode', must be one of bullet, quasi_static"),
+        ('world.mass_error:=-1.0', 'world.mass_error is -1, must be between -0.5 and 1'),
+        ('world.size_error:=-1.0', 'world.size_error is -1, must be between -0.2 and 0.2'),
+        ('profile:=harsher', "profile is 'harsher', must be one of irb120"),
+    ],
+)
+def test_the_node_fails_at_its_start_with_one_line(argument: str, told: str, capfd) -> None:
+    assert main(['--ros-args', '-p', argument]) == 2
+    lines = [line for line in capfd.readouterr().err.splitlines() if 'parameter' in line]
+    assert len(lines) == 1
+    assert told in lines[0]
 
 
 def test_an_unknown_profile_is_refused_with_those_that_exist() -> None:
