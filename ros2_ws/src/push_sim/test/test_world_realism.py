@@ -128,7 +128,9 @@ def test_a_spinning_object_stops_as_its_friction_moment_says(slider, pressure: s
     world = BulletWorld(settings, slider)
     world.reset(ORIGIN, AWAY, seed)
     world.advance((0.0, 0.0), 1)
-    pybullet.resetBaseVelocity(world._object, (0, 0, 0), (0, 0, speed), world._client)
+    pybullet.resetBaseVelocity(
+        world._scene._object, (0, 0, 0), (0, 0, speed), world._scene._client
+    )
     world.advance((0.0, 0.0), 700)
     c = friction_moment_radius(feet(settings, slider.side, seed))
     deceleration = 0.35 * GRAVITY * c / (slider.side**2 / 6.0)
