@@ -2,16 +2,15 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import plotly.graph_objects as go
-from plotly.offline import get_plotlyjs
 from push_core.atomic_file import write_atomically
 
 from push_bag.animation import animation_data, animation_figure
 from push_bag.lap_figure import lap_figure
+from push_bag.page import page, resource, section
 from push_bag.run_reader import read_run
 from push_bag.score import score_json, score_series
 from push_bag.score_table import messages_line, score_rows
@@ -54,30 +53,18 @@ def report_html(scored: Sequence[Scored]) -> str:
     """
     shown = views(scored)
     sections = [
-        _section('The lap', _figure(lap_figure(shown), 'lap')),
-        _section('In motion', CONTROLS + _figure(animation_figure(shown), 'animation')),
-        _section('Over time', _figure(time_figure(shown), 'time')),
-        _section('Timing', _figure(timing_figure(shown), 'timing')),
-        _section('Score', _table(_names(shown), _score_rows(shown))),
-        _section('Messages', _table(_names(shown), _message_rows(shown))),
-        _section('Run facts', _table(_names(shown), _fact_rows(shown))),
+        section('The lap', _figure(lap_figure(shown), 'lap')),
+        section('In motion', CONTROLS + _figure(animation_figure(shown), 'animation')),
+        section('Over time', _figure(time_figure(shown), 'time')),
+        section('Timing', _figure(timing_figure(shown), 'timing')),
+        section('Score', _table(_names(shown), _score_rows(shown))),
+        section('Messages', _table(_names(shown), _message_rows(shown))),
+        section('Run facts', _table(_names(shown), _fact_rows(shown))),
     ]
     head = _head_of_one(shown[0]) if len(shown) == 1 else _head_of_several(shown)
     page_title = title(shown[0].score) if len(shown) == 1 else f'{len(shown)} runs'
-    return _page(page_title, head, sections, animation_data(shown))
-
-
-def _page(page_title: str, head: str, sections: list[str], data: str) -> str:
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<title>{escape(page_title)}</title><style>{_resource("report.css")}</style>'
-        f'<script>{get_plotlyjs()}</script></head>\n<body>{head}{"".join(sections)}'
-        f'<script>const ANIMATION = {data};\n{_resource("report.js")}</script></body></html>\n'
-    )
-
-
-def _resource(name: str) -> str:
-    return files('push_bag').joinpath(name).read_text(encoding='utf-8')
+    script = f'const ANIMATION = {animation_data(shown)};\n{resource("report.js")}'
+    return page(page_title, sections, head, script)
 
 
 def _head_of_one(view: View) -> str:
@@ -122,10 +109,6 @@ def _measure(value: float | None, unit: str) -> str:
 def _card(name: str, value: str, colour: str = '') -> str:
     key = f'<i class="key" style="background: {colour}"></i>' if colour else ''
     return f'<div class="card"><b>{escape(value)}</b><span>{key}{escape(name)}</span></div>'
-
-
-def _section(heading: str, content: str) -> str:
-    return f'<section><h2>{escape(heading)}</h2>{content}</section>\n'
 
 
 def _figure(figure: go.Figure, name: str) -> str:

@@ -1,0 +1,49 @@
+"""What the benchmarks that push laps have in common on their command lines."""
+
+import argparse
+from pathlib import Path
+
+from push_core.command_line import Parser
+from push_core.errors import InputError
+
+from push_bringup.lap_pool import LapStore, cores
+
+
+def add_lap_options(parser: Parser, laps: Path) -> None:
+    """The options that every benchmark of laps takes."""
+    parser.add_argument(
+        '--jobs', type=int, default=cores(), help='processes (default %(default)s)'
+    )
+    parser.add_argument('--json', action='store_true', help='print one JSON object instead')
+    parser.add_argument('--html', type=Path, metavar='FILE', help='also write a page with figures')
+    parser.add_argument(
+        '--laps-file',
+        type=Path,
+        default=laps,
+        metavar='FILE',
+        help='keeps finished laps, so that an interrupted run goes on (default %(default)s)',
+    )
+    parser.add_argument('--fresh', action='store_true', help='forget the laps of that file')
+
+
+def opened_store(arguments: argparse.Namespace) -> LapStore:
+    """The file of laps that the options name.
+
+    Raises:
+        InputError: it cannot be used, or a number is out of range.
+    """
+    check_positive('--jobs', arguments.jobs)
+    page = arguments.html
+    if page is not None and not page.parent.is_dir():
+        raise InputError(f'cannot write {page}: there is no folder {page.parent}')
+    return LapStore(arguments.laps_file, arguments.fresh)
+
+
+def check_positive(name: str, value: int) -> None:
+    """Refuses numbers below 1.
+
+    Raises:
+        InputError: it is one.
+    """
+    if value < 1:
+        raise InputError(f'{name} is {value}, must be at least 1')
