@@ -58,7 +58,11 @@ def schema_text(type_name: str) -> str:
         InputError: a definition is not installed.
     """
     sections = [_definition(type_name)]
-    sections += [f'MSG: {name}\n{_definition(name)}' for name in _dependencies(type_name)]
+    sections += [
+        # readers look types up as the fields name them, without the folder
+        f'MSG: {name.replace("/msg/", "/")}\n{_definition(name)}'
+        for name in _dependencies(type_name)
+    ]
     return f'\n{SEPARATOR}\n'.join(sections)
 
 

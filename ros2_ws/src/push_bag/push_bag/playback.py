@@ -18,6 +18,7 @@ from push_bag.topic import Topic
 
 REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
 CLOCK = '/clock'
+MATCHING_PERIOD = 0.02  # [s]
 
 
 def in_order(records: Iterable[Record]) -> Iterator[Record]:
@@ -97,6 +98,7 @@ class Publishers:
         Raises:
             InputError: a type is not installed, or a profile is not readable.
         """
+        self._node = node
         self._publishers: dict[str, Any] = {
             topic.name: node.create_publisher(
                 message_class(topic.type_name), topic.name, qos_profile(topic.qos)
@@ -107,6 +109,15 @@ class Publishers:
         self._clock = (
             node.create_publisher(Clock, CLOCK, QoSProfile(depth=10)) if needs_clock else None
         )
+
+    def wait_until_matched(self, timeout: float) -> None:
+        """Waits until every listener of whom the node knows is connected, at most a time [s]."""
+        end = time.monotonic() + timeout
+        while time.monotonic() < end and not all(
+            publisher.get_subscription_count() >= self._node.count_subscribers(name)
+            for name, publisher in self._publishers.items()
+        ):
+            time.sleep(MATCHING_PERIOD)
 
     def publish(self, record: Record) -> None:
         """Publishes the bytes of one record, and before it what time it is."""

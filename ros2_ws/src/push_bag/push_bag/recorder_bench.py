@@ -4,17 +4,14 @@ import argparse
 import random
 import sys
 import tempfile
-import time
 from collections.abc import Sequence
 from pathlib import Path
 
-import rclpy
 from push_core.command_line import Parser, run_command
-from push_core.errors import InputError, RunError
 from tqdm import tqdm
 
 from push_bag.reader import BagReader
-from push_bag.recorder_load import READY_TIMEOUT, Publisher, RecorderProcess, at_rate, new_node
+from push_bag.recorder_load import Publisher, RecorderProcess, at_rate, new_publisher
 from push_bag.recover import recover
 from push_bag.traffic import Traffic
 
@@ -41,16 +38,13 @@ def _parser() -> Parser:
 
 
 def _work(arguments: argparse.Namespace) -> None:
-    node = new_node()
-    try:
-        with tempfile.TemporaryDirectory(prefix='push_bench_') as scratch:
-            _say(_cell(Publisher(node), Path(scratch) / 'cell', arguments.seconds))
-            _say(_load(Publisher(node), Path(scratch) / 'load', arguments))
-            if arguments.kills:
-                _say(_kills(Publisher(node), Path(scratch), arguments.kills))
-    finally:
-        node.destroy_node()
-        rclpy.try_shutdown()
+    with tempfile.TemporaryDirectory(prefix='push_bench_') as scratch:
+        with new_publisher() as publisher:
+            _say(_cell(publisher, Path(scratch) / 'cell', arguments.seconds))
+        with new_publisher() as publisher:
+            _say(_load(publisher, Path(scratch) / 'load', arguments))
+        if arguments.kills:
+            _say(_kills(Path(scratch), arguments.kills))
 
 
 def _say(text: str) -> None:
@@ -85,40 +79,20 @@ def _load(publisher: Publisher, folder: Path, arguments: argparse.Namespace) -> 
     )
 
 
-def _kills(publisher: Publisher, scratch: Path, count: int) -> str:
+def _kills(scratch: Path, count: int) -> str:
     chance = random.Random(0)
     ages = []
     for number in tqdm(range(count), unit='kill', disable=None, leave=False):
         folder = scratch / f'kill_{number}'
-        with RecorderProcess(folder, 'topics:=load') as recorder:
-            _warm_up(publisher, folder)
-            at_rate(publisher.tick, CELL_RATE, chance.uniform(0.0, 2.0))
+        with new_publisher() as publisher, RecorderProcess(folder, 'topics:=load') as recorder:
+            publisher.wait()
+            at_rate(publisher.tick, CELL_RATE, chance.uniform(0.5, 2.5))
             last = publisher.sent_at['object_pose'][-1]
             recorder.kill()
         recover(folder, folder.with_name(f'saved_{number}'))
         saved = BagReader(folder.with_name(f'saved_{number}')).records(['/object_pose'])
         ages.append((last - max(record.log_ns for record in saved)) * 1e-9)
     return f'kills: {count}; the recovered bags end up to {max(ages):.2f} s before the kill'
-
-
-def _warm_up(publisher: Publisher, folder: Path) -> None:
-    """Publishes until the bag has its first messages: a killed recorder still seems to listen.
-
-    Raises:
-        RunError: it gets none.
-    """
-    end = time.monotonic() + READY_TIMEOUT
-    while not _has_poses(folder):
-        at_rate(publisher.tick, CELL_RATE, 0.05)
-        if time.monotonic() > end:
-            raise RunError('the recorder records nothing')
-
-
-def _has_poses(folder: Path) -> bool:
-    try:
-        return any(True for _ in BagReader(folder).records(['/object_pose']))
-    except InputError:
-        return False
 
 
 if __name__ == '__main__':

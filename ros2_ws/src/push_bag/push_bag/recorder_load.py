@@ -4,7 +4,8 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -131,7 +132,13 @@ def at_rate(work: Callable[[int], None], rate: float, seconds: float) -> float:
     return number / (time.monotonic() - start)
 
 
-def new_node() -> Node:
-    """A node to publish with."""
+@contextmanager
+def new_publisher() -> Iterator[Publisher]:
+    """A publisher that has not met any recorder yet."""
     rclpy.init(args=[])
-    return rclpy.create_node('load')
+    node = rclpy.create_node('load')
+    try:
+        yield Publisher(node)
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()

@@ -19,6 +19,7 @@ from push_bag.recompute_command import add_recompute_arguments, recompute
 from push_bag.survey import Survey, survey
 
 DISCOVERY_TIME = 0.5  # [s] for subscribers to find the publishers before the first message
+MATCHING_TIMEOUT = 5.0  # [s] for those that were seen to be connected
 EPILOG = """
 examples:
   ros2 run push_bag replay runs/RUN --rate 2 --start 5
@@ -43,6 +44,13 @@ def _parser() -> Parser:
     parser.add_argument('--rate', type=float, default=1.0, help='times as fast; default 1')
     parser.add_argument('--topics', nargs='+', metavar='NAME', help='only these; default all')
     parser.add_argument('--start', type=float, default=0.0, metavar='S', help='begin S seconds in')
+    parser.add_argument(
+        '--delay',
+        type=float,
+        default=DISCOVERY_TIME,
+        metavar='S',
+        help='wait for listeners before the first message; default %(default)s',
+    )
     parser.add_argument('--loop', action='store_true', help='again and again, until Ctrl-C')
     parser.add_argument(
         '--clock', action='store_true', help='publish /clock too, for nodes with use_sim_time'
@@ -56,8 +64,9 @@ def _work(arguments: argparse.Namespace) -> int:
         return recompute(arguments)
     if not arguments.rate > 0:
         raise InputError(f'--rate must be above 0, not {arguments.rate:g}')
-    if arguments.start < 0:
-        raise InputError(f'--start must not be below 0, not {arguments.start:g}')
+    for name in ('start', 'delay'):
+        if getattr(arguments, name) < 0:
+            raise InputError(f'--{name} must not be below 0, not {getattr(arguments, name):g}')
     found = survey(arguments.run, arguments.topics)
     # Ctrl-C stays Python's: it ends the wait for the next message
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
@@ -70,7 +79,8 @@ def _work(arguments: argparse.Namespace) -> int:
 
 def _replay(node: Node, found: Survey, arguments: argparse.Namespace) -> None:
     publishers = Publishers(node, found.topics.values(), arguments.clock)
-    time.sleep(DISCOVERY_TIME)
+    time.sleep(arguments.delay)
+    publishers.wait_until_matched(MATCHING_TIMEOUT)
     for _ in itertools.count() if arguments.loop else range(1):
         records = _records(arguments, found)
         count = play(records, publishers.publish, arguments.rate, found.seconds - arguments.start)

@@ -14,14 +14,14 @@ from tqdm import tqdm
 
 from push_bag.figures import bound, check_bounds
 from push_bag.run_reader import read_run
-from push_bag.runs_table import comparison_table, runs_object, runs_table
+from push_bag.runs_table import Scores, comparison_table, runs_object, runs_table
 from push_bag.score import score_json, score_run, score_series
 from push_bag.score_table import score_table
 
 EPILOG = """
 examples:
   ros2 run push_bag score runs/RUN
-  ros2 run push_bag score runs/RUN --html report.html
+  ros2 run push_bag score runs/A runs/B --html report.html
   ros2 run push_bag score runs/*                      a line for each run, their mean and spread
   ros2 run push_bag score runs/A runs/B --compare     figure by figure, with the difference
   ros2 run push_bag score runs/RUN --fail-above mean=3.0 --fail-above solve_ms.p99=2
@@ -43,7 +43,12 @@ def _parser() -> Parser:
         'runs', type=Path, nargs='+', metavar='RUN', help='run folder or MCAP file'
     )
     parser.add_argument('--json', action='store_true', help='print one JSON object instead')
-    parser.add_argument('--html', type=Path, metavar='FILE', help='also write a report (one run)')
+    parser.add_argument(
+        '--html',
+        type=Path,
+        metavar='FILE',
+        help='also write a report; several runs over each other',
+    )
     parser.add_argument('--compare', action='store_true', help='two runs, figure by figure')
     parser.add_argument(
         '--fail-above',
@@ -59,35 +64,34 @@ def _work(arguments: argparse.Namespace) -> None:
     bounds = [bound(text) for text in arguments.fail_above]
     if arguments.compare and len(arguments.runs) != 2:
         raise InputError('--compare takes two runs')
-    if len(arguments.runs) == 1:
-        scores = [(str(arguments.runs[0]), _one(arguments))]
-    else:
-        scores = _several(arguments)
+    scores = list(zip(map(str, arguments.runs), _scored(arguments), strict=True))
+    sys.stdout.write(_text(arguments, scores))
     check_bounds(scores, bounds)
 
 
-def _one(arguments: argparse.Namespace) -> dict[str, Any]:
-    run = read_run(arguments.runs[0])
-    score = score_series(run)
-    if arguments.html is not None:
-        # plotly takes a second to import: only who asks for a report waits for it
-        from push_bag.report import report_html  # noqa: PLC0415
+def _scored(arguments: argparse.Namespace) -> list[dict[str, Any]]:
+    """The score of each run; their report is written where one was asked for."""
+    paths = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
+    if arguments.html is None:
+        return [score_run(path) for path in paths]
+    # plotly takes a second to import: only who asks for a report waits for it
+    from push_bag.report import report_html  # noqa: PLC0415
 
-        write_atomically(arguments.html, report_html([(run, score)]).encode())
-    sys.stdout.write(score_json(score) if arguments.json else score_table(score))
-    return score
+    runs = [read_run(path) for path in paths]
+    scored = [(run, score_series(run)) for run in runs]
+    write_atomically(arguments.html, report_html(scored).encode())
+    return [score for _, score in scored]
 
 
-def _several(arguments: argparse.Namespace) -> list[tuple[str, dict[str, Any]]]:
-    if arguments.html is not None:
-        raise InputError('--html takes one run')
-    runs = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
-    scores = [(str(run), score_run(run)) for run in runs]
+def _text(arguments: argparse.Namespace, scores: Scores) -> str:
+    if arguments.compare:
+        return comparison_table(scores)
+    if len(scores) == 1:
+        score = scores[0][1]
+        return score_json(score) if arguments.json else score_table(score)
     if arguments.json:
-        sys.stdout.write(json.dumps(runs_object(scores), indent=2, allow_nan=False) + '\n')
-    else:
-        sys.stdout.write(comparison_table(scores) if arguments.compare else runs_table(scores))
-    return scores
+        return json.dumps(runs_object(scores), indent=2, allow_nan=False) + '\n'
+    return runs_table(scores)
 
 
 if __name__ == '__main__':

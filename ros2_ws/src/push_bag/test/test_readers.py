@@ -103,3 +103,12 @@ def test_nested_types_of_other_packages_are_in_the_bag(tmp_path):
         ((connection, _, data),) = theirs.messages()
         assert theirs.deserialize(data, connection.msgtype).markers == []
         assert connection.digest == type_hash(type_name)
+
+
+def test_schemas_name_their_parts_as_rosbag2_does(perfect):
+    """Foxglove's reader looks a field's `std_msgs/Header` up by that very name."""
+    reader = BagReader(perfect)
+    list(reader.records())
+    schema = reader.topics['/object_pose'].schema
+    assert '\n' + '=' * 80 + '\nMSG: std_msgs/Header\n' in schema
+    assert '\nMSG: builtin_interfaces/Time\n' in schema

@@ -60,6 +60,10 @@ def test_a_wrong_bound_is_one_line_and_status_2(runs, capsys, words):
     assert capsys.readouterr().err.count('\n') == 1
 
 
-def test_what_needs_another_number_of_runs_is_refused(runs, tmp_path):
+def test_a_comparison_takes_two_runs(runs):
     assert main([*runs, '--compare']) == 2
-    assert main([*runs, '--html', str(tmp_path / 'report.html')]) == 2
+
+
+def test_several_runs_share_a_report(runs, tmp_path):
+    assert main([*runs[:2], '--html', str(tmp_path / 'report.html')]) == 0
+    assert '2 runs' in (tmp_path / 'report.html').read_text()
