@@ -44,7 +44,7 @@ def message_class(type_name: str) -> Any:
     package, folder, name = _parts(type_name)
     try:
         return getattr(importlib.import_module(f'{package}.{folder}'), name)
-    except (ImportError, AttributeError):
+    except (ImportError, AttributeError, ValueError):
         raise InputError(
             f'message type {type_name} is not installed; build and source its package'
         ) from None

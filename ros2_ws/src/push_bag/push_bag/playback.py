@@ -5,7 +5,9 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from push_core.errors import InputError
 from push_node.stamps import to_stamp
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
@@ -96,15 +98,10 @@ class Publishers:
             with_clock: whether /clock tells each record's log time, where the bag has no clock.
 
         Raises:
-            InputError: a type is not installed, or a profile is not readable.
+            InputError: a type is not installed, or a name or a profile is not readable.
         """
         self._node = node
-        self._publishers: dict[str, Any] = {
-            topic.name: node.create_publisher(
-                message_class(topic.type_name), topic.name, qos_profile(topic.qos)
-            )
-            for topic in topics
-        }
+        self._publishers = {topic.name: _publisher(node, topic) for topic in topics}
         needs_clock = with_clock and CLOCK not in self._publishers
         self._clock = (
             node.create_publisher(Clock, CLOCK, QoSProfile(depth=10)) if needs_clock else None
@@ -124,3 +121,11 @@ class Publishers:
         if self._clock is not None:
             self._clock.publish(Clock(clock=to_stamp(record.log_ns)))
         self._publishers[record.topic.name].publish(record.data)
+
+
+def _publisher(node: Node, topic: Topic) -> Any:
+    kind, profile = message_class(topic.type_name), qos_profile(topic.qos)
+    try:
+        return node.create_publisher(kind, topic.name, profile)
+    except (InvalidTopicNameException, ValueError):
+        raise InputError(f'the bag has a topic of no valid name: {topic.name[:60]!r}') from None

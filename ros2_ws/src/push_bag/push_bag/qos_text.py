@@ -9,6 +9,7 @@ from rclpy.duration import Duration
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
+    InvalidQoSProfileException,
     LivelinessPolicy,
     QoSProfile,
     ReliabilityPolicy,
@@ -24,6 +25,10 @@ POLICIES: dict[str, type[Enum]] = {
 }
 DURATIONS = ('deadline', 'lifespan', 'liveliness_lease_duration')
 SECOND = 1_000_000_000
+UNREADABLE = (
+    *(yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError, OverflowError),
+    InvalidQoSProfileException,
+)
 UNKNOWN_DEPTH = 10  # discovery does not tell the depth, so replay takes ROS's default
 
 
@@ -49,7 +54,7 @@ def qos_profile(text: str) -> QoSProfile:
     try:
         profiles = from_yaml(text) or []
         return _profile(profiles[0]) if profiles else QoSProfile(depth=UNKNOWN_DEPTH)
-    except (yaml.YAMLError, KeyError, TypeError, ValueError):
+    except UNREADABLE:
         raise InputError(f'not a list of QoS profiles: {text[:60]!r}') from None
 
 

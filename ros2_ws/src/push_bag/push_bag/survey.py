@@ -16,7 +16,7 @@ class Survey:
     """What a look found.
 
     Attributes:
-        topics: by full name.
+        topics: that have messages, by full name.
         first_ns: earliest log time of their messages [ns].
         last_ns: latest one.
     """
@@ -46,8 +46,8 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
     for record in reader.records():
         first, last = spans.get(record.topic.name, (record.log_ns, record.log_ns))
         spans[record.topic.name] = min(first, record.log_ns), max(last, record.log_ns)
-    topics = _wanted(reader.topics, names)
-    seen = [spans[name] for name in topics if name in spans]
+    topics = _wanted({name: reader.topics[name] for name in spans}, names)
+    seen = [spans[name] for name in topics]
     if not seen:
         raise InputError(
             f'{reader.path} holds no messages' + (' of these topics' if names else '')

@@ -170,15 +170,22 @@ def test_a_killed_recording_is_recovered_without_a_hole(cell, start, tmp_path):
 @pytest.mark.parametrize(
     ('settings', 'reason'),
     [
+        ({'folder': '/dev/null/run'}, 'cannot be made: Not a directory'),
         ({}, 'name the new folder'),
         ({'facts_file': 'none.json'}, 'No such file'),
         ({'facts_file': __file__}, 'is not JSON'),
         ({'attachments': 'none.yaml'}, 'No such file'),
     ],
-    ids=['no folder', 'no facts', 'facts of another kind', 'no attachment'],
+    ids=[
+        'no place for a folder',
+        'no folder',
+        'no facts',
+        'facts of another kind',
+        'no attachment',
+    ],
 )
 def test_a_wrong_setting_leaves_nothing_behind(tmp_path, settings, reason):
     folder = str(tmp_path / 'run') if settings else ''
     with pytest.raises(InputError, match=reason):
-        open_bag(RecorderSettings(folder=folder, **settings))
+        open_bag(RecorderSettings(**{'folder': folder, **settings}))
     assert list(tmp_path.iterdir()) == []

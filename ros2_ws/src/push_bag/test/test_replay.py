@@ -66,8 +66,9 @@ def test_a_profile_of_unknown_depth_becomes_one_that_can_publish():
 
 
 def test_text_that_is_no_profile_is_refused():
-    with pytest.raises(InputError, match='not a list of QoS profiles'):
-        qos_profile('[{history: sometimes}]')
+    for text in ('[{history: sometimes}]', '[1]', '{', '[{history: [], depth: -1}]'):
+        with pytest.raises(InputError, match='not a list of QoS profiles'):
+            qos_profile(text)
 
 
 def test_a_rate_of_zero_is_refused(perfect, capsys):
