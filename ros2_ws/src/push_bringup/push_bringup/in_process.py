@@ -3,12 +3,13 @@
 import time
 from collections.abc import Callable
 
+import numpy as np
 from push_gp.model import PushModel
 from push_mpc.controller import Controller, Mode, Tick
-from push_mpc.model_client import model_grid
+from push_mpc.domain import Domain
 from push_mpc.planning import planned
 from push_mpc.surrogate import Table
-from push_mpc.travel_rates import travel_rates
+from push_mpc.tabulation import Answer, Question, Subject, tabulation
 from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 
@@ -73,9 +74,21 @@ class InProcessCell:
 
 def tabulated(model: PushModel, side: float) -> Table:
     """The table that the controller would make of the server's answers."""
-    grid = model_grid(model.info, side)
-    mean, jacobian = model.evaluate(*grid.points())
-    return Table(grid, *travel_rates(mean, jacobian, model.distance))
+    info = model.info
+    data = Domain.of_data(info.p_y_domain, info.beta_domain, side)
+    conversation = tabulation(Subject(data, info.kind, info.mean_function, side))
+    question = next(conversation)
+    try:
+        while True:
+            question = conversation.send(_answer(model, question))
+    except StopIteration as done:
+        return done.value.table  # type: ignore[no-any-return]
+
+
+def _answer(model: PushModel, question: Question) -> Answer:
+    asked = (question.p_y, question.beta)
+    variance = model.variance(*asked) if question.want_variance else np.empty((0, 3))
+    return Answer.of(*model.evaluate(*asked), variance, model.distance)
 
 
 def nanoseconds(plant_time: float) -> int:

@@ -1,6 +1,7 @@
 """Messages to arrays and back."""
 
 import math
+from array import array
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,7 @@ from push_node.stamps import to_stamp
 from push_mpc.controller import Tick
 from push_mpc.node_settings import MpcSettings
 from push_mpc.nominal import Plan
-from push_mpc.travel_rates import travel_rates
+from push_mpc.tabulation import Answer, Question
 
 
 def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:
@@ -78,7 +79,21 @@ def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
     return message
 
 
-def answer_arrays(answer: Predict.Response, distance: float) -> tuple[Array, Array]:
-    """Displacement rates (n, 3) per metre of travel and their Jacobian (n, 3, 2)."""
+def request_of(question: Question) -> Predict.Request:
+    """The request that asks a question."""
+    return Predict.Request(
+        p_y=_numbers(question.p_y),
+        beta=_numbers(question.beta),
+        want_variance=question.want_variance,
+    )
+
+
+def answer_of(answer: Predict.Response, distance: float) -> Answer:
+    """A response, per metre of travel."""
     mean, jacobian = np.reshape(answer.mean, (-1, 3)), np.reshape(answer.jacobian, (-1, 3, 2))
-    return travel_rates(mean, jacobian, distance)
+    return Answer.of(mean, jacobian, np.reshape(answer.variance, (-1, 3)), distance)
+
+
+def _numbers(values: Array) -> 'array[float]':
+    """The one form that goes into a message without a look at each number."""
+    return array('d', np.ascontiguousarray(values, dtype=np.float64).tobytes())

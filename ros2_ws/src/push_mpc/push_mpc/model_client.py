@@ -3,8 +3,8 @@
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 
-import numpy as np
 from push_core.errors import PushError
 from push_msgs.msg import ModelInfo
 from push_msgs.srv import Predict
@@ -14,31 +14,46 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from push_mpc.controller import Model
-from push_mpc.conversions import answer_arrays
-from push_mpc.surrogate import Grid, Table
+from push_mpc.conversions import answer_of, request_of
+from push_mpc.domain import Domain
+from push_mpc.surrogate import Table
+from push_mpc.tabulation import Conversation, Question, Subject, Tabulated, tabulation
 
-ASK_PERIOD = 0.1  # [s]
+ASK_PERIOD = 0.02  # [s]
 PATIENCE = 1.0  # [s]; a request sent before both sides know each other is lost
-P_Y_POINTS = 37
-BETA_POINTS = 61
+
+
+@dataclass
+class _Wish:
+    """A model that was announced, and how far the conversation about it has come."""
+
+    info: ModelInfo
+    conversation: Conversation
+    question: Question | None
+    asked: float = -PATIENCE
 
 
 class ModelClient:
-    """Asks for a grid of answers whenever a model is announced and prepares it in a thread.
+    """Tabulates each model that is announced, and prepares it for the controller in a thread.
+
+    The node's own thread only sends a question and takes an answer; making tables of the answers,
+    and of the tables what the controller needs, is the worker's.
 
     Attributes:
         ready: the newest prepared model, None before the first.
+        table: what it was prepared from, None before the first.
         problem: why there is none, for a person; empty if there is one.
     """
 
     def __init__(self, node: Node, side: float, prepare: Callable[[Table, str], Model]) -> None:
         self.ready: Model | None = None
+        self.table: Tabulated | None = None
         self.problem = 'no model announced'
         self._side = side
         self._prepare = prepare
         self._worker = ThreadPoolExecutor(max_workers=1)
-        self._wanted: ModelInfo | None = None
-        self._asked = -PATIENCE
+        self._wish: _Wish | None = None
+        self._log = node.get_logger()
         self._client = node.create_client(Predict, 'push_gp/predict')
         node.create_subscription(ModelInfo, 'model_info', self._on_model, LATCHED)
         node.create_timer(ASK_PERIOD, self._ask, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -49,44 +64,48 @@ class ModelClient:
 
     def _on_model(self, info: ModelInfo) -> None:
         self.problem = f'model {info.model_id} announced, its answers are under way'
-        self._wanted = info
-        self._asked = -PATIENCE
+        data = Domain.of_data(tuple(info.p_y_domain), tuple(info.beta_domain), self._side)
+        conversation = tabulation(Subject(data, info.kind, info.mean_function, self._side))
+        self._wish = _Wish(info, conversation, next(conversation))
         self._ask()
 
     def _ask(self) -> None:
-        """Asks for the wanted model's answers, again if they do not come."""
-        info = self._wanted
-        overdue = time.monotonic() - self._asked > PATIENCE
-        if info is None or not overdue or not self._client.service_is_ready():
+        """Sends the question that waits, again if its answer does not come."""
+        wish = self._wish
+        if wish is None or wish.question is None or not self._client.service_is_ready():
             return
-        self._asked = time.monotonic()
-        grid, distance = model_grid(info, self._side), info.distance
-        p_y, beta = grid.points()
-        request = Predict.Request(p_y=p_y.tolist(), beta=beta.tolist(), want_variance=False)
+        if time.monotonic() - wish.asked <= PATIENCE:
+            return
+        wish.asked = time.monotonic()
+        question = wish.question
 
         def on_answer(future: Future) -> None:
-            if self._wanted is info:
-                self._wanted = None
-                self._worker.submit(self._take, future, grid, distance)
+            if self._wish is wish and wish.question is question:
+                wish.question = None
+                self._worker.submit(self._take, wish, future)
 
-        self._client.call_async(request).add_done_callback(on_answer)
+        self._client.call_async(request_of(question)).add_done_callback(on_answer)
 
-    def _take(self, future: Future, grid: Grid, distance: float) -> None:
+    def _take(self, wish: _Wish, future: Future) -> None:
+        """In the worker: goes on with the conversation, or ends it with a model."""
         try:
             answer = future.result()
             if not answer.success:
                 self.problem = f'the model server answered: {answer.message}'
-                return
-            table = Table(grid, *answer_arrays(answer, distance))
-            self.ready = self._prepare(table, answer.model_id)
-            self.problem = ''
+            elif answer.model_id == wish.info.model_id:
+                question = wish.conversation.send(answer_of(answer, wish.info.distance))
+                wish.asked = -PATIENCE
+                wish.question = question
+        except StopIteration as done:
+            self._finish(wish.info.model_id, done.value)
         except (PushError, ValueError) as error:
             self.problem = f'the model cannot be used: {error}'
 
-
-def model_grid(info: ModelInfo, side: float) -> Grid:
-    """Where a model is asked: over its training data, but not off the face."""
-    half = 0.5 * side
-    low, high = np.clip(info.p_y_domain, -half, half)
-    beta_low, beta_high = info.beta_domain
-    return Grid(np.linspace(low, high, P_Y_POINTS), np.linspace(beta_low, beta_high, BETA_POINTS))
+    def _finish(self, model_id: str, tabulated: Tabulated) -> None:
+        try:
+            self.ready = self._prepare(tabulated.table, model_id)
+        except (PushError, ValueError) as error:
+            self.problem = f'the model cannot be used: {error}'
+            return
+        self.table, self.problem = tabulated, ''
+        self._log.info(f'model {model_id} as a table of {tabulated}')

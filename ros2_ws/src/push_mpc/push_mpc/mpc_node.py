@@ -1,5 +1,6 @@
 """The controller node: a pose in, a velocity out, every 10 ms."""
 
+import math
 import sys
 import time
 from collections.abc import Sequence
@@ -23,6 +24,7 @@ from push_mpc.node_settings import mpc_settings
 from push_mpc.planning import planned
 from push_mpc.pose_pair import PosePair
 from push_mpc.recorder_watch import RecorderWatch
+from push_mpc.tabulation import Tabulated
 
 WATCHDOG_PERIOD = 0.01  # [s]
 REPORT_PERIOD = 1.0  # [s]
@@ -40,7 +42,8 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         lockstep = self._settings.mode == 'lockstep'
         self._poses = PosePair(self, lockstep, self._tick, self._repeat)
-        self._tick_count = 0
+        self._tick_count = self._guesses = 0
+        self._table: Tabulated | None = None
         self._scheduling = ''
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
@@ -87,6 +90,7 @@ class MpcNode(Node):  # type: ignore[misc]
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._guesses += self._is_guess(tick)
         self._controller.prepare_next()
 
     def _send(self, tick: Tick, stamp: int) -> None:
@@ -113,6 +117,16 @@ class MpcNode(Node):  # type: ignore[misc]
         ready = self._model.ready
         if ready is not None and ready.model_id != self._controller.model_id:
             self._controller.use(ready)
+            self._table = self._model.table
+
+    def _is_guess(self, tick: Tick) -> bool:
+        """Whether the command rests on what the model was never trained on."""
+        if self._table is None or tick.predicted is None or tick.input is None:
+            return False
+        v_n, v_t = tick.input
+        return bool(tick.velocity.any()) and not self._table.data.covers(
+            tick.predicted[3], math.atan2(v_n, v_t)
+        )
 
     def _watch(self) -> None:
         """Holds still on old poses; the poses themselves drive everything else."""
@@ -176,7 +190,12 @@ class MpcNode(Node):  # type: ignore[misc]
     def _report(self) -> None:
         stopped = self._controller.mode == Mode.STOPPED
         reason = self._controller.stop_reason if stopped else self._model.problem
-        values = {'model': self._controller.model_id, 'ticks': str(self._tick_count)}
+        values = {
+            'model': self._controller.model_id,
+            'table': str(self._table or ''),
+            'ticks': str(self._tick_count),
+            'outside_training_data': str(self._guesses),
+        }
         self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
 
 

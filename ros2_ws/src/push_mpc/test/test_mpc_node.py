@@ -36,6 +36,7 @@ class Cell:
         self.node = Node('cell')
         self.spinner = Spinner(self.node)
         self.poses_on = self.recording = False
+        self.model_id = ''
         self.states: list[ControllerState] = []
         self.commands: list[TwistStamped] = []
         self.plans: list[NominalTrajectory] = []
@@ -65,7 +66,7 @@ class Cell:
 
     def _predict(self, request: Predict.Request, answer: Predict.Response) -> Predict.Response:
         mean, jacobian = self._cone.evaluate(np.array(request.p_y), np.array(request.beta))
-        answer.success, answer.model_id = True, 'cone'
+        answer.success, answer.model_id = True, self.model_id
         answer.mean = (0.004 * mean).ravel().tolist()
         answer.jacobian = (0.004 * jacobian).ravel().tolist()
         return answer
@@ -85,8 +86,9 @@ class Cell:
             status = DiagnosticStatus(level=DiagnosticStatus.OK, name='/recorder: recording')
             self._health.publish(DiagnosticArray(status=[status]))
 
-    def announce_model(self) -> None:
-        info = ModelInfo(model_id='cone', distance=0.004)
+    def announce_model(self, model_id: str = 'cone') -> None:
+        self.model_id = model_id
+        info = ModelInfo(model_id=model_id, distance=0.004)
         info.p_y_domain, info.beta_domain = (-0.045, 0.045), (0.1, 3.0)
         self._models.publish(info)
 
@@ -214,6 +216,21 @@ def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started
     assert 'call push_mpc/resume first' in cell.call('start').message
     assert cell.call('resume').success
     cell.call_until('start', lambda answer: answer.success)
+
+
+def test_a_new_model_is_taken_over_without_a_missed_tick(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    first = cell.states[-1].tick
+    cell.announce_model('another')
+    cell.wait(lambda: cell.states[-1].model_id == 'another')
+    cell.wait(lambda: len(cell.states) > 20 and cell.states[-20].model_id == 'another')
+    ticks = [state for state in cell.states if state.tick >= first]
+    assert all(state.mode == ControllerState.TRACKING for state in ticks)
+    assert all(state.solver_status == 1 for state in ticks)
+    assert {state.model_id for state in ticks} == {'cone', 'another'}
+    answered = [(state.header.stamp.sec, state.header.stamp.nanosec) for state in ticks]
+    assert len(set(answered)) == len(answered)
 
 
 def test_stop_stops_at_once(cell, started) -> None:
