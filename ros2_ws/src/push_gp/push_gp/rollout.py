@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from push_core.displacement import twist_of
 from push_core.frames import Array
 from push_core.long_pushes import FACE_MARGIN, LongPushes
 
@@ -32,7 +33,7 @@ def rolled_out(model: PushModel, pushes: LongPushes) -> Array:
 
 
 def _moved(model: PushModel, pushes: LongPushes, pose: Array, tip: Array) -> Array:
-    """Displacements (n, 3) in the body frame over one distance of the model."""
+    """Twists (n, 3) in the body frame, times the time that one distance of the model takes."""
     cos, sin = np.cos(pose[:, 2]), np.sin(pose[:, 2])
     x, y = (tip - pose[:, :2]).T
     p_y = cos * y - sin * x
@@ -41,5 +42,5 @@ def _moved(model: PushModel, pushes: LongPushes, pose: Array, tip: Array) -> Arr
     beta = np.arctan2(np.cos(direction), np.sin(direction))
     touches = (np.abs(p_y) <= pushes.slider.side / 2.0 + FACE_MARGIN) & (beta > 0.0)
     moved = np.zeros((len(pose), 3))
-    moved[touches], _ = model.evaluate(p_y[touches], beta[touches])
+    moved[touches], _ = twist_of(*model.evaluate(p_y[touches], beta[touches]))
     return moved
