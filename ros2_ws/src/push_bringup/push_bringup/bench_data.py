@@ -164,11 +164,12 @@ def _trained(pushes: PushSet, choices: Sequence[Choice], folder: Path) -> list[P
         name = f'{choice.choice}_{choice.points}_{choice.mean}_{choice.draw}.npz'
         files.append(folder / name)
         if not files[-1].is_file():
-            save_model(files[-1], learned(pushes.take(_rows(pushes, choice)), choice.mean))
+            save_model(files[-1], learned(pushes.take(chosen_rows(pushes, choice)), choice.mean))
     return files
 
 
-def _rows(pushes: PushSet, choice: Choice) -> np.ndarray:
+def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:
+    """Row numbers of the pushes that a choice takes."""
     if choice.choice == 'die':
         return die_rows(pushes)
     return nested_rows(pushes, choice.points, choice.draw)

@@ -11,6 +11,7 @@ from statistics import fmean, median
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
 from push_gp.analytical_model import ANALYTICAL
+from push_gp.model_file import load_model
 from push_sim.settings import PROFILES
 
 from push_bringup.bench_options import add_lap_options, check_positive, opened_store
@@ -84,6 +85,8 @@ def work(arguments: argparse.Namespace) -> int:
     """
     check_positive('--seeds', arguments.seeds)
     store = opened_store(arguments)
+    if arguments.model is not None:
+        load_model(Path(arguments.model))
     models = {'gp': arguments.model or str(default_model()), 'analytical': ANALYTICAL}
     cases = [
         (experiment, controller, profile)

@@ -75,16 +75,22 @@ def push_all(jobs: Sequence[LapJob], store: LapStore, processes: int) -> list[La
         InputError: a job cannot be run.
     """
     left = [job for job in jobs if store.find(job) is None]
-    with tqdm(total=len(jobs), desc='pushing', unit=' laps', disable=None) as bar:
-        bar.update(len(jobs) - len(left))
+    _push_missing(left, len(jobs), store, processes)
+    done = [store.find(job) for job in jobs]
+    return [lap for lap in done if lap is not None]
+
+
+def _push_missing(left: Sequence[LapJob], total: int, store: LapStore, processes: int) -> None:
+    if not left:
+        return
+    with tqdm(total=total, desc='pushing', unit=' laps', disable=None) as bar:
+        bar.update(total - len(left))
         context = multiprocessing.get_context('spawn')
         # Ctrl-C reaches all processes; this one ends the others
         with context.Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
             for number, lap in pool.imap_unordered(_push, list(enumerate(left))):
                 store.add(left[number], lap)
                 bar.update()
-    done = [store.find(job) for job in jobs]
-    return [lap for lap in done if lap is not None]
 
 
 def cores() -> int:

@@ -5,8 +5,14 @@ from push_sim.collect import collect
 
 
 @pytest.fixture(scope='session')
-def model_file(tmp_path_factory):
+def pushes():
+    """A small set of simulated pushes."""
+    return collect(30, seed=0)
+
+
+@pytest.fixture(scope='session')
+def model_file(pushes, tmp_path_factory):
     """A small learned model."""
     path = tmp_path_factory.mktemp('model') / 'model.npz'
-    save_model(path, learned(collect(30, seed=0)))
+    save_model(path, learned(pushes))
     return path
