@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import plotly.graph_objects as go
+from push_core.page import COLOURS, write_page
 
 from push_gp.learning_curve import LIMIT_SURFACE, METHODS, Place
-from push_gp.page import COLOURS, write_page
 
 NAMES = {
     'zero': 'GP, zero mean',

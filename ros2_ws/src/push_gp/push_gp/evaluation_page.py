@@ -10,11 +10,11 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_core.accuracy import OUTPUTS, READABLE
 from push_core.frames import Array
+from push_core.page import COLOURS, DIVERGING, write_page
 from push_core.push_set import PushSet
 
 from push_gp.gp_model import GpModel
 from push_gp.model import PushModel
-from push_gp.page import COLOURS, DIVERGING, write_page
 from push_gp.summary import UNITS
 
 LEVELS = np.linspace(0.05, 0.99, 48)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 from plotly.subplots import make_subplots
+from push_core.page import COLOURS, write_page
 
 from push_gp.evaluation import RolloutEvaluation
-from push_gp.page import COLOURS, write_page
 
 SHOWN = (('position', 'position [mm]', 1e3), ('heading', 'heading [deg]', 180.0 / np.pi))
 

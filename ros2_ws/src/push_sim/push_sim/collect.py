@@ -1,6 +1,7 @@
 """The command that collects pushes in the simulator: `ros2 run push_sim collect`."""
 
 import argparse
+import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -34,11 +35,11 @@ examples:
   ros2 run push_sim collect --pushes 400 --sampling grid --speed 0.05 --duration 0.1 -o fast.csv
 """
 
-_CHUNK = 50
+_MOST_IN_CHUNK = 250
 
 
 @dataclass(frozen=True)
-class _Asked:
+class Asked:
     """What every process has to know."""
 
     pushes: int
@@ -49,6 +50,7 @@ class _Asked:
 
     @property
     def aim(self) -> Aim:
+        """Where each push sets out."""
         return SAMPLINGS[self.sampling](self.design, Slider().side, self.pushes)
 
 
@@ -74,15 +76,18 @@ def collect(
         InputError: the sampling cannot make so many or such long pushes.
         RunError: a push does not stay on the face.
     """
-    asked = _Asked(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
-    table = np.array(list(_rows(asked, jobs)))
+    asked = Asked(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
+    table = np.array(list(collected(asked, jobs)))
     return PushSet(table[:, 0], table[:, 1], table[:, 2:], asked.design.distance)
 
 
-def _rows(asked: _Asked, jobs: int) -> Iterator[Array]:
+def collected(asked: Asked, jobs: int) -> Iterator[Array]:
     """All rows (5,) in order; a wrong sampling fails before the processes start."""
     _ = asked.aim
-    tasks = ((asked, first) for first in range(0, asked.pushes, _CHUNK))
+    # a world takes as long to make as five pushes
+    size = min(_MOST_IN_CHUNK, math.ceil(asked.pushes / jobs))
+    firsts = range(0, asked.pushes, size)
+    tasks = ((asked, first, min(first + size, asked.pushes)) for first in firsts)
     bar: tqdm[Any]
     with (
         tqdm(desc='collecting', total=asked.pushes, unit=' pushes', disable=None) as bar,
@@ -93,11 +98,10 @@ def _rows(asked: _Asked, jobs: int) -> Iterator[Array]:
             yield from chunk
 
 
-def _chunk(asked: _Asked, first: int) -> list[Array]:
-    """The rows of a few pushes from a number on."""
-    numbers = range(first, min(first + _CHUNK, asked.pushes))
+def _chunk(asked: Asked, first: int, end: int) -> list[Array]:
+    """The rows of the pushes of some numbers."""
     with Collector(asked.settings, Slider(), asked.design, asked.aim) as collector:
-        return [collector.push(asked.seed, number) for number in numbers]
+        return [collector.push(asked.seed, number) for number in range(first, end)]
 
 
 def parser() -> Parser:

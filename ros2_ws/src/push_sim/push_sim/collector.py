@@ -4,6 +4,7 @@ The tip pushes at 20 mm/s; once the contact has settled, the motion of the objec
 0.2 s is one row. Source: Bauza, Hogan and Rodriguez 2018, section 4.
 """
 
+import math
 from types import TracebackType
 
 import numpy as np
@@ -19,6 +20,7 @@ from push_sim.settings import SimSettings
 from push_sim.short_push import Instant, push_row, short_push
 
 _DRAWS = 100
+_ANYWHERE = np.array([0.2, 0.2, math.pi])
 
 
 class Collector:
@@ -47,7 +49,8 @@ class Collector:
     def push(self, seed: int, number: int) -> Array:
         """One row (5,): p_y [m], beta [rad], dx_b [m], dy_b [m], dtheta [rad].
 
-        Aims until the tip stays on the face.
+        The object lies anywhere on the table, which is the same in all pushes of a seed. Aims
+        until the tip stays on the face.
 
         Raises:
             RunError: it never does.
@@ -56,7 +59,8 @@ class Collector:
         self._sensor.reset(random)
         for _ in range(_DRAWS):
             p_y, beta = self._aim(number, random)
-            made = short_push(self._world, self._slider, self._timing, p_y, beta)
+            pose = random.uniform(-_ANYWHERE, _ANYWHERE)
+            made = short_push(self._world, self._slider, self._timing, p_y, beta, pose, seed)
             before, after = map(self._as_seen, made)
             if abs(self._offset(after)) <= self._slider.side / 2.0:
                 return push_row(self._slider, before, after)

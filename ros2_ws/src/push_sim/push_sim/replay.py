@@ -21,7 +21,7 @@ from push_sim.workers import Map
 
 Bar: TypeAlias = 'tqdm[Any]'
 
-_CHUNK = 60
+_CHUNK = 120
 
 
 @dataclass(frozen=True)

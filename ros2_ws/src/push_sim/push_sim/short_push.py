@@ -13,7 +13,7 @@ from push_core.slider import Slider
 
 from push_sim.world import World
 
-_ORIGIN = np.zeros(3)
+ORIGIN = np.zeros(3)
 
 
 @dataclass(frozen=True)
@@ -45,9 +45,15 @@ class PushTiming:
 
 
 def short_push(
-    world: World, slider: Slider, timing: PushTiming, p_y: float, beta: float
+    world: World,
+    slider: Slider,
+    timing: PushTiming,
+    p_y: float,
+    beta: float,
+    pose: Array = ORIGIN,
+    seed: int = 0,
 ) -> tuple[Instant, Instant]:
-    """Pushes an object at the origin; settling moves it before the first look.
+    """Pushes an object at rest; settling moves it before the first look.
 
     Args:
         world: where.
@@ -55,12 +61,15 @@ def short_push(
         timing: how fast and how long.
         p_y: contact offset [m] at which the tip sets out.
         beta: direction [rad] of its motion relative to the object then.
+        pose: (3,) where the object lies before [m, m, rad].
+        seed: of what the world draws at random.
 
     Returns:
         Start and end of the push.
     """
-    velocity = timing.speed * math.sin(beta), timing.speed * math.cos(beta)
-    world.reset(_ORIGIN, slider.tip_position(_ORIGIN, p_y))
+    heading = pose[2] + math.pi / 2.0 - beta
+    velocity = timing.speed * math.cos(heading), timing.speed * math.sin(heading)
+    world.reset(pose, slider.tip_position(pose, p_y), seed)
     world.advance(velocity, timing.settling)
     before = Instant(world.object_pose, world.tip_position)
     world.advance(velocity, timing.pushing)

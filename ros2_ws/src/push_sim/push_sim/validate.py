@@ -9,7 +9,7 @@ from pathlib import Path
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
 
-from push_sim.command_checks import check_jobs
+from push_sim.command_checks import check_folder, check_jobs
 from push_sim.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
 from push_sim.settings import PROFILES, profile
 from push_sim.validation import validation
@@ -28,7 +28,7 @@ as on the face where the tip, at its measured end, is still within half a side, 
 middle of the face on which it began.
 
 examples:
-  ros2 run push_sim validate --data ../shared/data
+  ros2 run push_sim validate --data ../shared/data --html validation.html
   ros2 run push_sim validate --data ../shared/data --json > validation.json
 """
 
@@ -39,6 +39,9 @@ def parser() -> Parser:
     described.add_argument('--data', type=Path, required=True, metavar='DIR', help='measurements')
     described.add_argument('--profile', choices=PROFILES, default='irb120', help='of the plant')
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
+    described.add_argument(
+        '--html', type=Path, metavar='FILE', help='also write a page of pictures'
+    )
     described.add_argument(
         '--jobs', type=int, default=usable_cores(), metavar='N', help='processes (%(default)s)'
     )
@@ -52,14 +55,19 @@ def work(arguments: argparse.Namespace) -> None:
         InputError: the folder holds nothing, a file is faulty, or a number is out of range.
     """
     check_jobs(arguments.jobs)
+    if arguments.html:
+        check_folder(arguments.html)
     data = read_measured_data(arguments.data)
     with workers(arguments.jobs) as run_in:
         found = validation(data, profile(arguments.profile), Slider(), run_in)
     figures = {'profile': arguments.profile, **as_json(found)}
-    if arguments.json:
-        sys.stdout.write(json.dumps(figures, indent=2) + '\n')
-    else:
-        sys.stdout.write(validation_table(figures, arguments.profile))
+    table = validation_table(figures, arguments.profile)
+    if arguments.html:
+        # plotly takes a second to import: only who asks for a page waits for it
+        from push_sim.validation_page import write_validation_page  # noqa: PLC0415
+
+        write_validation_page(arguments.html, found, arguments.profile, table)
+    sys.stdout.write(json.dumps(figures, indent=2) + '\n' if arguments.json else table)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
