@@ -88,7 +88,7 @@ def test_a_faulty_parameter_file_is_refused(text: str, fault: str, tmp_path: Pat
 
 def test_an_override_of_the_profile_brings_its_defaults() -> None:
     parameters = resolve(profile='irb120', overrides={'mpc_node.profile': 'ideal'})
-    assert (parameters.sim.actuator.lag, parameters.mpc.actuator.lag) == (0.05, 0.0)
+    assert (parameters.sim.actuator.lag, parameters.mpc.actuator.lag) == (0.049, 0.0)
 
 
 def test_the_written_file_names_every_value_of_every_node() -> None:

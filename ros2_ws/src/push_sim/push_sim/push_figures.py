@@ -14,7 +14,8 @@ from push_sim.validation import LongComparison, ShortComparison
 _TITLES = ('along the push [mm]', 'across [mm]', 'turn [deg]')
 _SERIES = (('simulator', COLOURS[0]), ('ellipsoid', COLOURS[1]))
 _PANELS = {'horizontal_spacing': 0.08}
-_HEIGHT = 560
+_HEIGHT = 600
+LEGEND = {'orientation': 'h', 'y': -0.16, 'yanchor': 'top', 'itemsizing': 'constant'}
 
 
 def short_figure(compared: ShortComparison) -> go.Figure:
@@ -30,7 +31,7 @@ def short_figure(compared: ShortComparison) -> go.Figure:
     figure.update_xaxes(title_text='measured').update_yaxes(title_text='predicted', col=1)
     length = f'{compared.pushes.distance * 1e3:g} mm'
     title = f'{len(measured)} pushes of {length}, predicted against measured'
-    return figure.update_layout(title_text=title)
+    return figure.update_layout(title_text=title, legend=LEGEND)
 
 
 def long_figure(compared: LongComparison) -> go.Figure:
@@ -52,7 +53,7 @@ def long_figure(compared: LongComparison) -> go.Figure:
     figure.update_xaxes(title_text='measured', row=1, col=2)
     figure.update_yaxes(title_text='predicted', row=1, col=2)
     title = f'{compared.file}: {len(chosen)} pushes that stay on the face'
-    return figure.update_layout(title_text=title, height=_HEIGHT)
+    return figure.update_layout(title_text=title, height=_HEIGHT, legend=LEGEND)
 
 
 def _both(compared: ShortComparison | LongComparison) -> tuple[Array, Array]:
@@ -79,7 +80,7 @@ def _dots(
             name=name,
             legendgroup=name,
             showlegend=column < 2 and not _named(figure, name),
-            marker={'size': 3, 'color': colour, 'opacity': 0.5},
+            marker={'size': 4, 'color': colour, 'opacity': 0.55},
         ),
         row=1,
         col=column + 1,

@@ -1,7 +1,7 @@
 """Measured short pushes, made again in the simulator.
 
 They were measured from settled contact on. In the simulator the contact settles within the first
-time step: pushing for up to 0.2 s before changes the mean NMSE by less than 0.001.
+time step: pushing for up to 0.1 s before changes the mean NMSE by less than 0.001.
 """
 
 from contextlib import closing

@@ -6,11 +6,13 @@ from plotly.subplots import make_subplots
 from push_core.frames import Array
 from push_core.page import COLOURS
 
+from push_sim.push_figures import LEGEND
 from push_sim.validation import RunComparison
 
 _TITLES = ('across the table', 'from the sensed tip to the model', 'the object')
 _MOST_POINTS = 2000
-_HEIGHT = 620
+_LEAST_RANGE = 1.0
+_HEIGHT = 680
 _GREY = '#9aa5b1'
 
 
@@ -33,12 +35,19 @@ def run_figure(compared: RunComparison) -> go.Figure:
         figure.add_trace(go.Scatter(x=time, y=gap, name=f'{name} error', line=line), row=1, col=2)
     _object(figure, compared)
     figure.update_xaxes(title_text='x [mm]', row=1, col=1)
-    figure.update_yaxes(title_text='y [mm]', row=1, col=1)
+    figure.update_yaxes(title_text='y [mm]', range=_range(tip[:, 1] * 1e3), row=1, col=1)
     figure.update_xaxes(title_text='time [s]', row=1, col=2)
     figure.update_yaxes(title_text='[mm]', row=1, col=2)
     figure.update_xaxes(title_text='x [mm]', row=2, col=1)
     figure.update_yaxes(title_text='y [mm]', row=2, col=1)
-    return figure.update_layout(title_text=run.name, height=_HEIGHT)
+    return figure.update_layout(title_text=run.name, height=_HEIGHT, legend=LEGEND)
+
+
+def _range(values: Array) -> list[float]:
+    """The range of an axis that does not blow up a straight line."""
+    middle = 0.5 * float(values.min() + values.max())
+    half = 0.6 * max(float(np.ptp(values)), _LEAST_RANGE)
+    return [middle - half, middle + half]
 
 
 def _thinned(values: Array) -> Array:

@@ -21,7 +21,11 @@ ENGINES = ('bullet', 'quasi_static')
 
 @dataclass(frozen=True)
 class WorldSettings:
-    """The rigid bodies, their friction, and how finely time is cut."""
+    """The rigid bodies, their friction, and how finely time is cut.
+
+    The friction of the pusher and the support radius are those that `calibrate` finds in the
+    measured pushes, as docs/plant.md tells.
+    """
 
     engine: str = setting(
         'bullet',
@@ -32,9 +36,9 @@ class WorldSettings:
         0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
     )
     friction_ground: float = setting(0.35, 'friction of slider on table', low=0.01, high=2.0)
-    friction_pusher: float = setting(0.21, 'friction of slider on tip', low=0.0, high=2.0)
+    friction_pusher: float = setting(0.196, 'friction of slider on tip', low=0.0, high=2.0)
     support_radius: float = setting(
-        0.0365, 'distance of the four feet from the centre', unit='m', low=1e-3, high=0.5
+        0.0373, 'distance of the four feet from the centre', unit='m', low=1e-3, high=0.5
     )
     pressure: str = setting(
         'calibrated',

@@ -63,14 +63,17 @@ def test_the_fit_of_the_lag_does_not_depend_on_where_it_starts(folder: Path) -> 
         assert rms_coordinate(tip_gap(run, found.settings)) < 1e-5
 
 
-def test_the_table_shows_every_part_and_says_what_is_missing(
+def test_table_and_page_show_every_part_and_say_what_is_missing(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     source = folder / 'robot_runs' / 'weave.csv'
     (tmp_path / 'robot_runs').mkdir()
     (tmp_path / 'robot_runs' / 'weave.csv').write_bytes(source.read_bytes())
-    assert main(['--data', str(tmp_path), '--jobs', '1']) == 0
+    page = tmp_path / 'page.html'
+    assert main(['--data', str(tmp_path), '--jobs', '1', '--html', str(page)]) == 0
     shown = capsys.readouterr().out
+    assert 'src="http' not in page.read_text()
+    assert page.read_text().count('class="plotly-graph-div"') == 1
     assert 'weave.csv' in shown
     assert 'dead time 71.3 ms, lag 33.4 ms' in shown
     assert 'no short pushes: there is no square_4mm_pushes*.csv' in shown
