@@ -1,7 +1,8 @@
 """The robot between command and tip: dead time, first-order lag, speed and acceleration limits.
 
 The measured runs of the real cell lag by 110 ms; 60 ms of dead time and a 49 ms lag reproduce the
-undisturbed one to 0.2 mm rms, as `push_sim calibrate` finds. The plant and the controller's predictor use this same class.
+undisturbed one to 0.2 mm rms, as `push_sim calibrate` finds. The plant and the controller's
+predictor use this same class.
 """
 
 import math
@@ -25,7 +26,9 @@ class ActuatorSettings:
     dead_time: float = setting(
         0.06, 'time until a command begins to act', unit='s', low=0.0, high=1.0
     )
-    lag: float = setting(0.049, 'time constant of the first-order lag', unit='s', low=0.0, high=1.0)
+    lag: float = setting(
+        0.049, 'time constant of the first-order lag', unit='s', low=0.0, high=1.0
+    )
     speed_limit: float = setting(0.25, 'largest speed of the tip', unit='m/s', low=1e-3, high=2.0)
     acceleration_limit: float = setting(
         5.0, 'largest acceleration of the tip', unit='m/s^2', low=0.1, high=100.0

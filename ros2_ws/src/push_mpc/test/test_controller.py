@@ -29,7 +29,7 @@ def test_nothing_moves_before_enough_good_poses(cell) -> None:
 
 def test_the_reference_starts_when_the_object_can(cell) -> None:
     first = [cell.tick() for _ in range(4)][-1]
-    assert first.reference_time == pytest.approx(-(0.11 + 0.005), abs=1e-9)
+    assert first.reference_time == pytest.approx(-(0.109 + 0.005), abs=1e-9)
     assert first.reference == pytest.approx(cell.controller.plan.state[0], abs=1e-12)
 
 

@@ -123,4 +123,6 @@ def test_after_a_reset_no_command_is_under_way(predictor, slider, table) -> None
 
 
 def test_its_horizon_is_dead_time_plus_lag(slider) -> None:
-    assert Predictor(replace(ROBOT, dead_time=0.07), slider).horizon == pytest.approx(0.12)
+    assert Predictor(replace(ROBOT, dead_time=0.07), slider).horizon == pytest.approx(
+        0.07 + ROBOT.lag
+    )

@@ -15,7 +15,7 @@ _TITLES = ('along the push [mm]', 'across [mm]', 'turn [deg]')
 _SERIES = (('simulator', COLOURS[0]), ('ellipsoid', COLOURS[1]))
 _PANELS = {'horizontal_spacing': 0.08}
 _HEIGHT = 600
-LEGEND = {'orientation': 'h', 'y': -0.16, 'yanchor': 'top', 'itemsizing': 'constant'}
+LEGEND = {'orientation': 'h', 'y': -0.22, 'yanchor': 'top', 'itemsizing': 'constant'}
 
 
 def short_figure(compared: ShortComparison) -> go.Figure:
