@@ -11,9 +11,10 @@ from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.records import Attachment, Channel, Metadata, Schema, Statistics
 
-from push_bag.bag_writer import COUNTS_RECORD, FACTS_RECORD, TOPIC_RECORD
+from push_bag.bag_writer import COUNTS_RECORD, FACTS_RECORD
 from push_bag.mcap_stream import DamagedError, RawRecord
 from push_bag.topic import Topic
+from push_bag.topic_registry import TOPIC_RECORD
 
 
 class BagContents:

@@ -1,10 +1,7 @@
 """Writes one run to an MCAP bag that rosbag2, Foxglove and the like read."""
 
-import json
 import time
-import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
@@ -13,23 +10,14 @@ from mcap.writer import CompressionType, Writer
 from push_core.errors import InputError, RunError
 
 from push_bag.message_types import Definition, installed_definition
-from push_bag.rosbag2_metadata import Span, TopicSummary, write_metadata
+from push_bag.rosbag2_metadata import Span, write_metadata
+from push_bag.topic import Topic
+from push_bag.topic_registry import TopicRegistry
 
 CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
 FACTS_RECORD = 'run'
-TOPIC_RECORD = 'topic'  # a second copy, for whoever has to do without the first chunk
 COUNTS_RECORD = 'recording'  # what the recorder received and lost, written last
 LARGEST_SEQUENCE = 0xFFFFFFFF
-
-
-@dataclass(frozen=True)
-class Channel:
-    """One topic in the file."""
-
-    id: int
-    type_name: str
-    qos: str
-    definition: Definition
 
 
 class BagWriter:
@@ -62,12 +50,11 @@ class BagWriter:
         self.path = self.folder / f'{self.folder.name}_0.mcap'
         self.counts: dict[str, int] = {}
         self._facts = dict(facts)
-        self._channels: dict[str, Channel] = {}
-        self._schemas: dict[str, int] = {}
         self._first_ns: int | None = None
         self._last_ns = 0
         self._stream: IO[bytes] | None = self.path.open('wb')
         self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
+        self._registry = TopicRegistry(self._writer)
         self._attempt(lambda: self._write_head(attachments))
 
     @property
@@ -90,11 +77,12 @@ class BagWriter:
             InputError: the type is not installed, or the topic is already there.
             RunError: the file cannot be written.
         """
-        if name in self._channels:
+        if name in self.counts:
             raise InputError(f'topic {name} is already in {self.path}')
         definition = definition or installed_definition(type_name)
-        channel = Channel(0, type_name, qos_yaml, definition)
-        self._attempt(lambda: self._register(name, channel))
+        topic = Topic(name, type_name, qos_yaml, definition.type_hash, definition.schema)
+        self._attempt(lambda: self._registry.add(topic))
+        self.counts[name] = 0
 
     def write(
         self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
@@ -111,7 +99,7 @@ class BagWriter:
         Raises:
             RunError: the file cannot be written; the recording has ended.
         """
-        channel = self._channels[name].id
+        channel = self._registry.channel(name)
         number = sequence & LARGEST_SEQUENCE
         self._attempt(lambda: self._writer.add_message(channel, log_ns, data, publish_ns, number))
         self.counts[name] += 1
@@ -174,45 +162,20 @@ class BagWriter:
             self._writer.add_attachment(now, now, name, 'application/octet-stream', data)
         self._writer.flush()  # type: ignore[no-untyped-call]
 
-    def _register(self, name: str, channel: Channel) -> None:
-        metadata = {
-            'offered_qos_profiles': channel.qos,
-            'topic_type_hash': channel.definition.type_hash,
-        }
-        number = self._writer.register_channel(name, 'cdr', self._schema(channel), metadata)
-        copy = json.dumps({'id': number, 'name': name, 'type': channel.type_name, **metadata})
-        checksum = str(zlib.crc32(copy.encode()))
-        self._writer.add_metadata(TOPIC_RECORD, {'topic': copy, 'crc32': checksum})
-        self._channels[name] = replace(channel, id=number)
-        self.counts[name] = 0
-
-    def _schema(self, channel: Channel) -> int:
-        type_name = channel.type_name
-        if type_name not in self._schemas:
-            text = channel.definition.schema.encode()
-            self._schemas[type_name] = self._writer.register_schema(type_name, 'ros2msg', text)
-        return self._schemas[type_name]
-
     def _finish(self) -> None:
         self._writer.finish()  # type: ignore[no-untyped-call]
         self._close_stream()
         span = Span(self._first_ns or 0, self._last_ns)
         try:
-            write_metadata(self.folder, self.path.name, self._summaries(), span, self._facts)
+            write_metadata(
+                self.folder,
+                self.path.name,
+                self._registry.summaries(self.counts),
+                span,
+                self._facts,
+            )
         except InputError as error:
             raise RunError(str(error)) from error
-
-    def _summaries(self) -> list[TopicSummary]:
-        return [
-            TopicSummary(
-                name,
-                channel.type_name,
-                channel.qos,
-                channel.definition.type_hash,
-                self.counts[name],
-            )
-            for name, channel in self._channels.items()
-        ]
 
     def _close_stream(self) -> None:
         stream: Any = self._stream

@@ -15,16 +15,14 @@ import numpy as np
 from push_core.errors import InputError
 from push_msgs.msg import ControllerState
 
-from push_bag.cell_topics import short_name
 from push_bag.contact import contact, loss_intervals, on_face_at_end
+from push_bag.message_counts import message_counts
 from push_bag.run_reader import read_run
-from push_bag.series import Floats, Nanoseconds, Reference, RunSeries
+from push_bag.series import Floats, Reference, RunSeries
 from push_bag.timing import timing
 from push_bag.tracking import Tracking, track
-from push_bag.traffic import Traffic
 
 END_DISTANCE = 0.050  # [m]
-POSE_PERIOD_NS = 10_000_000
 LIMITS = {
     'not_finite': ControllerState.LIMITED_NOT_FINITE,
     'speed': ControllerState.LIMITED_SPEED,
@@ -70,7 +68,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         'contact_losses': len(loss_intervals(contact(run, run.reference))),
         'holds': holds(run),
         'limited': limited(run),
-        'messages': messages(run),
+        'messages': message_counts(run),
     }
     return {name: finite(value) for name, value in score.items()}
 
@@ -97,37 +95,6 @@ def holds(run: RunSeries) -> int:
     """Times that the controller held still for want of a fresh pose."""
     holding = run.state('mode') == ControllerState.HOLDING
     return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
-
-
-def messages(run: RunSeries) -> dict[str, dict[str, int | None]]:
-    """Messages received and lost per topic; lost is None where nothing tells."""
-    stamps = {
-        'object_pose': run.object.stamp,
-        'pusher_pose': run.pusher.stamp,
-        'pusher_velocity_cmd': run.commands.stamp,
-        'controller_state': run.states.stamp,
-    }
-    return {
-        topic: {
-            'received': seen.received,
-            'lost': _lost(seen, stamps.get(short_name(topic))),
-            'middleware_lost': seen.middleware_lost,
-        }
-        for topic, seen in sorted(run.traffic.items())
-    }
-
-
-def _lost(seen: Traffic, stamps: Nanoseconds | None) -> int | None:
-    known = seen.numbered or not seen.received
-    return seen.lost if known else missing_stamps(stamps)
-
-
-def missing_stamps(stamps: Nanoseconds | None) -> int | None:
-    """Messages missing from a topic that has one each POSE_PERIOD_NS, by its stamps (n,) [ns]."""
-    if stamps is None:
-        return None
-    steps = np.rint(np.diff(stamps) / POSE_PERIOD_NS).astype(np.int64)
-    return int(np.sum(np.maximum(steps - 1, 0)))
 
 
 def finite(value: Any) -> Any:

@@ -79,8 +79,8 @@ def test_an_unknown_type_is_refused(tmp_path):
 def test_a_schema_names_each_dependency_once_after_its_line_of_80():
     sections = schema_text('geometry_msgs/msg/TwistStamped').split('\n' + '=' * 80 + '\n')
     assert [section.splitlines()[0] for section in sections[1:]] == [
-        'MSG: std_msgs/msg/Header',
-        'MSG: geometry_msgs/msg/Twist',
-        'MSG: builtin_interfaces/msg/Time',
-        'MSG: geometry_msgs/msg/Vector3',
+        'MSG: std_msgs/Header',
+        'MSG: geometry_msgs/Twist',
+        'MSG: builtin_interfaces/Time',
+        'MSG: geometry_msgs/Vector3',
     ]

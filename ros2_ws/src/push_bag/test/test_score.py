@@ -91,6 +91,11 @@ def test_without_sequence_numbers_the_stamps_tell_what_was_lost(record):
     assert messages['/model_info']['lost'] is None
 
 
+def test_what_was_never_published_is_missing_among_the_stamps_and_not_lost(record):
+    counts = score_run(record(unanswered=(100, 101)))['messages']['/pusher_velocity_cmd']
+    assert (counts['missing_stamps'], counts['lost']) == (2, 0)
+
+
 def test_late_and_missing_commands_are_deadline_misses(record):
     run = record(
         command_delay_ns=lambda tick: 12_000_000 if tick in (100, 101) else 1_500_000,

@@ -70,3 +70,10 @@ def test_the_text_counts_sent_messages():
     assert (
         lost_text({'/a': counted([1, 2, 5]), '/b': counted([1])}) == '2 of 6 messages lost: /a 2'
     )
+
+
+def test_the_longest_gap_is_between_two_messages_however_the_poll_mixed_them_up():
+    traffic = Traffic()
+    for number, log_ns in enumerate([100, 300, 200, 350, 900], 1):
+        traffic.saw(number, log_ns)
+    assert (traffic.longest_ns, traffic.first_ns, traffic.last_ns) == (550, 100, 900)
