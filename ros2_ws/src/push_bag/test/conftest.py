@@ -1,5 +1,6 @@
 """Synthetic runs with known errors, recorded as real ones are."""
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -158,19 +159,28 @@ class Recorder:
         return info
 
 
-@pytest.fixture
-def record(tmp_path):
-    """Records a synthetic run: `record(duration=1.5, …)` gives its folder."""
-    count = 0
+def recording_in(parent):
+    """Records synthetic runs in a folder: `record(duration=1.5, …)` gives the run's own."""
+    numbers = itertools.count(1)
 
     def record_run(**changes) -> Path:
-        nonlocal count
-        count += 1
-        folder = tmp_path / f'run_{count}'
+        folder = parent / f'run_{next(numbers)}'
         Recorder(folder, Synthetic(**changes)).record()
         return folder
 
     return record_run
+
+
+@pytest.fixture
+def record(tmp_path):
+    """Records runs for one test."""
+    return recording_in(tmp_path)
+
+
+@pytest.fixture(scope='module')
+def record_once(tmp_path_factory):
+    """Records runs that all tests of a module read."""
+    return recording_in(tmp_path_factory.mktemp('runs'))
 
 
 @pytest.fixture

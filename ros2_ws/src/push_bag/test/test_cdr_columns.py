@@ -52,7 +52,7 @@ def drawn(leaf, chance):
 def test_random_messages_are_decoded_as_rclpy_decodes_them(type_name):
     chance, kind, fields = random.Random(0), message_class(type_name), layout(type_name)
     messages = []
-    for _ in range(200):
+    for _ in range(60):
         message = kind()
         for leaf in fields:
             set_value(message, leaf.name, drawn(leaf, chance))

@@ -7,14 +7,14 @@ import pytest
 from push_bag.score_command import main
 
 
-@pytest.fixture
-def runs(record):
+@pytest.fixture(scope='module')
+def runs(record_once):
     """Three runs that are 1, 2 and 4 mm beside their reference."""
 
     def off(shift):
         return lambda pose, _time: pose + np.array([shift, 0.0, 0.0])
 
-    return [str(record(displaced=off(shift), duration=0.4)) for shift in (1e-3, 2e-3, 4e-3)]
+    return [str(record_once(displaced=off(shift), duration=0.4)) for shift in (1e-3, 2e-3, 4e-3)]
 
 
 def test_several_runs_have_a_mean_and_a_sample_standard_deviation(runs, capsys):
