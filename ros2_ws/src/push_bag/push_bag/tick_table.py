@@ -20,13 +20,13 @@ def tick_table(run: RunSeries) -> Table:
     Raises:
         InputError: the run holds no tick or no reference.
     """
-    stamp = run.states.stamp
+    stamp, reference_time = run.states.stamp, run.state('reference_time')
     if not stamp.size or run.reference is None:
         raise InputError('the bag holds no ticks of a controller or no nominal trajectory')
     return {
         't_s': (stamp - stamp[0]) * 1e-9,
         'stamp_ns': stamp,
-        'reference_time_s': run.state('reference_time'),
+        'reference_time_s': np.where(np.isfinite(reference_time), reference_time, np.nan),
         **_measured(run),
         **_errors(track(run, run.reference), stamp),
         **_contact(run, run.reference, stamp),
