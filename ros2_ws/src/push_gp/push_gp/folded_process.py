@@ -33,6 +33,7 @@ class FoldedProcess:
         *,
         weights: Array | None = None,
         precision: Array | None = None,
+        features: Array | None = None,
     ) -> None:
         """Conditions on the pushes.
 
@@ -43,6 +44,7 @@ class FoldedProcess:
             modes: of its kernel.
             weights: (n,) if known.
             precision: (r, r) noise^2 + the sum of the outer products of the features, if known.
+            features: (n, r) of the inputs, if known.
         """
         self.inputs = inputs
         self.outputs = outputs
@@ -50,6 +52,8 @@ class FoldedProcess:
         self._modes = modes
         if precision is not None:
             self._precision = precision
+        if features is not None:
+            self._known = features
         self.weights = self._solved_weights() if weights is None else weights
 
     def variance(self, queries: Array) -> Array:
@@ -61,8 +65,7 @@ class FoldedProcess:
 
     def left_out(self) -> tuple[Array, Array]:
         """(n,) errors and variances of each push as the others predict it."""
-        features = self._features(self.inputs)
-        whitened = solve_triangular(self._scale_tril, features.T, lower=True)
+        whitened = solve_triangular(self._scale_tril, self._known.T, lower=True)
         inverse = (1.0 - np.sum(whitened**2, axis=0)) / self.hyperparameters.noise_std**2
         return self.weights / inverse, 1.0 / inverse
 
@@ -75,12 +78,16 @@ class FoldedProcess:
             self.hyperparameters,
             self._modes,
             precision=self._precision + features.T @ features,
+            features=np.vstack((self._known, features)),
         )
 
     @cached_property
+    def _known(self) -> Array:
+        return self._features(self.inputs)
+
+    @cached_property
     def _precision(self) -> Array:
-        features = self._features(self.inputs)
-        precision = features.T @ features
+        precision = self._known.T @ self._known
         precision.flat[:: len(precision) + 1] += self.hyperparameters.noise_std**2
         return np.asarray(precision)
 
@@ -99,9 +106,8 @@ class FoldedProcess:
         return self._modes.features(points) * self.hyperparameters.signal_std
 
     def _solved_weights(self) -> Array:
-        features = self._features(self.inputs)
-        coefficients = cho_solve((self._scale_tril, True), features.T @ self.outputs)
-        left = self.outputs - features @ coefficients
+        coefficients = cho_solve((self._scale_tril, True), self._known.T @ self.outputs)
+        left = self.outputs - self._known @ coefficients
         return np.asarray(left / self.hyperparameters.noise_std**2)
 
 
