@@ -49,7 +49,7 @@ class Client:
 
     def predict(self, p_y: Any, beta: Any, *, want_variance: bool = False) -> Predict.Response:
         request = Predict.Request(p_y=p_y, beta=beta, want_variance=want_variance)
-        return self._answer(self.predictor, request)
+        return self.answer(self.predictor, request)
 
     def add(self, pushes: PushSet, **changes: Any) -> AddPushes.Response:
         request = AddPushes.Request(
@@ -60,9 +60,9 @@ class Client:
         )
         for name, value in changes.items():
             setattr(request, name, value)
-        return self._answer(self.adder, request)
+        return self.answer(self.adder, request)
 
-    def _answer(self, client: Any, request: Any) -> Any:
+    def answer(self, client: Any, request: Any) -> Any:
         answer = ask(client, request, self._happens)
         assert answer is not None, f'{client.srv_name} did not answer'
         return answer
@@ -163,6 +163,25 @@ class TestServer:
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
         subprocess.run([sys.executable, '-c', code], env=environment, check=True, timeout=20)
         assert client.predict([0.0], [1.0]).success
+
+    def test_it_answers_eight_clients_at_once_each_its_own(
+        self, client: Client, model: GpModel
+    ) -> None:
+        clients = [client.node.create_client(Predict, 'push_gp/predict') for _ in range(8)]
+        for each in clients:
+            # both sides know each other once one answer has come
+            client.answer(each, Predict.Request())
+        offsets = np.linspace(-0.04, 0.04, 8)
+        futures = []
+        for each, offset in zip(clients, offsets, strict=True):
+            request = Predict.Request(p_y=[offset] * 500, beta=[1.5] * 500, want_variance=True)
+            futures.append(each.call_async(request))
+        client.wait_until(lambda: all(future.done() for future in futures))
+        for future, offset in zip(futures, offsets, strict=True):
+            mean, _ = model.evaluate(np.full(500, offset), np.full(500, 1.5))
+            assert np.array_equal(np.reshape(future.result().mean, (500, 3)), mean)
+        for each in clients:
+            client.node.destroy_client(each)
 
     def test_it_takes_new_pushes_in_and_announces_the_new_model(
         self, client: Client, model: GpModel, more_pushes: PushSet
