@@ -2,15 +2,15 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import plotly.graph_objects as go
 from push_core.atomic_file import write_atomically
+from push_core.page import drawn, page, section
 
 from push_bag.animation import animation_data, animation_figure
 from push_bag.lap_figure import lap_figure
-from push_bag.page import page, resource, section
 from push_bag.run_reader import read_run
 from push_bag.score import score_json, score_series
 from push_bag.score_table import messages_line, score_rows
@@ -53,17 +53,18 @@ def report_html(scored: Sequence[Scored]) -> str:
     """
     shown = views(scored)
     sections = [
-        section('The lap', _figure(lap_figure(shown), 'lap')),
-        section('In motion', CONTROLS + _figure(animation_figure(shown), 'animation')),
-        section('Over time', _figure(time_figure(shown), 'time')),
-        section('Timing', _figure(timing_figure(shown), 'timing')),
+        section('The lap', drawn(lap_figure(shown), 'lap')),
+        section('In motion', CONTROLS + drawn(animation_figure(shown), 'animation')),
+        section('Over time', drawn(time_figure(shown), 'time')),
+        section('Timing', drawn(timing_figure(shown), 'timing')),
         section('Score', _table(_names(shown), _score_rows(shown))),
         section('Messages', _table(_names(shown), _message_rows(shown))),
         section('Run facts', _table(_names(shown), _fact_rows(shown))),
     ]
     head = _head_of_one(shown[0]) if len(shown) == 1 else _head_of_several(shown)
     page_title = title(shown[0].score) if len(shown) == 1 else f'{len(shown)} runs'
-    script = f'const ANIMATION = {animation_data(shown)};\n{resource("report.js")}'
+    moving = files('push_bag').joinpath('report.js').read_text(encoding='utf-8')
+    script = f'const ANIMATION = {animation_data(shown)};\n{moving}'
     return page(page_title, sections, head, script)
 
 
@@ -109,11 +110,6 @@ def _measure(value: float | None, unit: str) -> str:
 def _card(name: str, value: str, colour: str = '') -> str:
     key = f'<i class="key" style="background: {colour}"></i>' if colour else ''
     return f'<div class="card"><b>{escape(value)}</b><span>{key}{escape(name)}</span></div>'
-
-
-def _figure(figure: go.Figure, name: str) -> str:
-    config = {'displaylogo': False, 'responsive': True}
-    return str(figure.to_html(config=config, include_plotlyjs=False, full_html=False, div_id=name))
 
 
 def _names(shown: Sequence[View]) -> list[str]:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_bag.figure_style import INK, RUN_COLOURS, styled
-from push_bag.page import page, section
+from push_core.page import drawn, page, section
 
 from push_bringup.bench_data import Point
 from push_bringup.experiment import Lap
@@ -29,8 +29,7 @@ def data_page(points: Sequence[Point], analytical: Lap) -> str:
     figure.update_xaxes(type='log', row=1, col=1)
     figure.update_yaxes(title='mean tracking error [mm]', rangemode='tozero', row=1, col=1)
     figure.update_yaxes(title='completed laps [%]', range=[-5, 105], row=2, col=1)
-    drawn = str(figure.to_html(include_plotlyjs=False, full_html=False))
-    return page('Error over training size', [section('8-track at 80 mm/s', drawn)])
+    return page('Error over training size', [section('8-track at 80 mm/s', drawn(figure))])
 
 
 def _draw(figure: go.Figure, points: Sequence[Point], name: str, colour: str) -> None:

@@ -28,7 +28,7 @@ class InProcessCell:
 
     def __init__(self, parameters: CellParameters, model: PushModel) -> None:
         mpc = parameters.mpc
-        self.plant = Plant(parameters.sim, mpc.slider)
+        self.plant = Plant(parameters.sim, parameters.sim.slider)
         self.controller = Controller(mpc, mpc.slider, planned(mpc))
         self._slider = mpc.slider
         self._seed = parameters.sim.seed

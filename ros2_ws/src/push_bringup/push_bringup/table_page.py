@@ -6,7 +6,7 @@ from html import escape
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_bag.figure_style import GREY, INK, RUN_COLOURS, styled
-from push_bag.page import page, section
+from push_core.page import drawn, page, section
 
 from push_bringup.bench_table import Row
 from push_bringup.experiment import LapJob
@@ -57,7 +57,7 @@ def _figure(rows: Sequence[Row]) -> str:
         for column, row in enumerate(_pair(rows, experiment), start=1):
             _draw(figure, row, line, column)
     styled(figure, TALL * len(experiments), showlegend=False)
-    return str(figure.to_html(include_plotlyjs=False, full_html=False))
+    return drawn(figure)
 
 
 def _pair(rows: Sequence[Row], experiment: object) -> list[Row]:

@@ -1,34 +1,56 @@
-"""One HTML page of text and figures that needs nothing beside itself.
+"""One HTML page of text and plotly figures that needs nothing beside itself, also offline.
 
 It imports plotly, which the rest of this package does without: import it only for a page.
 """
 
-import html
 from collections.abc import Sequence
+from html import escape
+from importlib.resources import files
 from pathlib import Path
 
 import plotly.graph_objects as go
+from plotly.offline import get_plotlyjs
 
 from push_core.atomic_file import write_atomically
 
-HEAD = """<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>{title}</title>
-<style>
-body {{ font: 15px/1.45 system-ui, "DejaVu Sans", sans-serif; max-width: 75em; margin: auto;
-       padding: 1.5em; color: #1f2933; }}
-h1 {{ font-size: 26px; margin: 0 0 0.6em; }}
-pre {{ background: #f4f6f8; border-radius: 8px; padding: 1em 1.2em; overflow-x: auto;
-      font-size: 13px; }}
-</style>
-</head><body><h1>{title}</h1><pre>{text}</pre>
-"""
 COLOURS = ('#3366aa', '#bb5533', '#448844')
 DIVERGING = 'RdBu'
 HEIGHT = 420
 
 
+def page(title: str, sections: Sequence[str], head: str = '', script: str = '') -> str:
+    """The page.
+
+    Args:
+        title: of the page.
+        sections: HTML of each, see `section`; figures without the drawing library.
+        head: HTML above the sections; default: the title.
+        script: JavaScript that runs when all is there.
+    """
+    style = files('push_core').joinpath('page.css').read_text(encoding='utf-8')
+    above = head or f'<h1>{escape(title)}</h1>'
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f'<title>{escape(title)}</title><style>{style}</style>'
+        f'<script>{get_plotlyjs()}</script></head>\n<body>{above}{"".join(sections)}'
+        f'<script>{script}</script></body></html>\n'
+    )
+
+
+def section(heading: str, content: str) -> str:
+    """A part of the page under its heading, if it has one; the content is HTML."""
+    above = f'<h2>{escape(heading)}</h2>' if heading else ''
+    return f'<section>{above}{content}</section>\n'
+
+
+def drawn(figure: go.Figure, name: str | None = None) -> str:
+    """HTML of a figure, for a section; `name` becomes the id of its element."""
+    config = {'displaylogo': False, 'responsive': True}
+    return str(figure.to_html(config=config, include_plotlyjs=False, full_html=False, div_id=name))
+
+
 def write_page(path: Path, title: str, lines: Sequence[str], figures: Sequence[go.Figure]) -> None:
-    """Writes a page; whole or not at all.
+    """Writes a plain page; whole or not at all.
 
     Args:
         path: of the HTML file.
@@ -39,10 +61,10 @@ def write_page(path: Path, title: str, lines: Sequence[str], figures: Sequence[g
     Raises:
         InputError: the file cannot be written.
     """
-    parts = [HEAD.format(title=html.escape(title), text=html.escape('\n'.join(lines)))]
-    for number, figure in enumerate(figures):
+    words = escape('\n'.join(lines))
+    sections = [section('', f'<pre>{words}</pre>')]
+    for figure in figures:
         height = figure.layout.height or HEIGHT
         figure.update_layout(template='simple_white', height=height, margin={'t': 80, 'b': 50})
-        # the drawing code goes into the page once
-        parts.append(figure.to_html(full_html=False, include_plotlyjs=number == 0))
-    write_atomically(path, ''.join([*parts, '</body></html>\n']).encode())
+        sections.append(section('', drawn(figure)))
+    write_atomically(path, page(title, sections).encode())

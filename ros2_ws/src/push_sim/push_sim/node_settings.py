@@ -35,12 +35,13 @@ class StartSettings:
 
 @dataclass(frozen=True)
 class NodeSettings(SimSettings):
-    """The plant's settings and the node's own."""
+    """The plant's settings and the node's own; of the slider only sides, mass and tip count."""
 
     profile: str = setting('irb120', 'bundle of defaults', choices=tuple(PROFILES))
     mode: str = setting('realtime', 'who sets the pace', choices=('realtime', 'lockstep'))
     seed: int = setting(0, 'of all that is drawn at random', low=0, high=2**62)
     start: StartSettings = nested(StartSettings())
+    slider: Slider = nested(Slider())
 
 
 def node_settings(profile_name: str) -> NodeSettings:

@@ -161,6 +161,7 @@ PROFILES = {
     ),
     'harsh': replace(
         SimSettings(),
+        world=WorldSettings(friction_variation=0.1, friction_anisotropy=1.1, mass_error=0.1),
         sensor=SensorSettings(
             position_noise=0.3e-3,
             angle_noise=math.radians(0.1),

@@ -5,7 +5,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.errors import InputError, PushError
-from push_core.slider import Slider
 from push_msgs.msg import Perturbation as PerturbationMessage
 from push_msgs.srv import Perturb, Reset
 from push_node.diagnostics import Reporter
@@ -47,7 +46,7 @@ class SimNode(Node):  # type: ignore[misc]
         self._settings: NodeSettings = declared(
             self, node_settings(override(self, 'profile', 'irb120'))
         )
-        self._slider = Slider()
+        self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)

@@ -23,7 +23,7 @@ def test_it_refuses_a_number_of_resets_that_makes_no_sense(capsys) -> None:
 
 @pytest.mark.parametrize(
     ('name', 'value', 'resets'),
-    [('engine', 'bullet', 2000), ('engine', 'quasi_static', 500), ('pressure', 'random', 200)],
+    [('engine', 'bullet', 500), ('engine', 'quasi_static', 200), ('pressure', 'random', 100)],
 )
 def test_resets_leave_the_memory_as_it_is(slider: Slider, name, value, resets) -> None:
     settings = replaced(profile('irb120'), {f'world.{name}': value})
