@@ -22,6 +22,7 @@ setup(
             'replay = push_bag.replay:main',
             'recover = push_bag.recover:main',
             'bench = push_bag.recorder_bench:main',
+            'fuzz = push_bag.fuzz:main',
             'export = push_bag.export:main',
             'import-csv = push_bag.import_csv:main',
         ],

@@ -1,13 +1,13 @@
 """A bag that is missing, cut short or garbage gives one line, or what is left of it."""
 
+import contextlib
 import random
-from functools import partial
 
 import pytest
 from push_bag import info, score_command
+from push_bag.damage import DAMAGES
+from push_bag.fuzz import READINGS
 from push_bag.reader import BagReader
-from push_bag.recover import recover
-from push_bag.run_reader import read_run
 from push_core.errors import InputError
 
 
@@ -55,46 +55,13 @@ def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, caps
     assert capsys.readouterr().out.splitlines()[0].split() == ['completed', 'no']
 
 
-def cut(whole, chance):
-    return whole[: chance.randrange(len(whole))]
-
-
-def flipped(whole, chance):
-    for _ in range(chance.choice((1, 8, 64))):
-        whole[chance.randrange(len(whole))] ^= 1 << chance.randrange(8)
-    return whole
-
-
-def swapped(whole, chance):
-    for _ in range(4):
-        here, there = (chance.randrange(len(whole) - 100) for _ in range(2))
-        size = chance.randrange(1, 100)
-        whole[here : here + size], whole[there : there + size] = (
-            whole[there : there + size],
-            whole[here : here + size],
-        )
-    return whole
-
-
-def taken_out(whole, chance):
-    at = chance.randrange(len(whole))
-    del whole[at : at + chance.randrange(1, 2000)]
-    return whole
-
-
-@pytest.mark.parametrize('spoil', [cut, flipped, swapped, taken_out])
-def test_damage_of_any_kind_gives_messages_or_an_input_error(tmp_path, content, spoil):
-    """Nothing but an InputError may come out, of reading and of recovering."""
+@pytest.mark.parametrize('spoil', DAMAGES)
+@pytest.mark.parametrize('name', READINGS)
+def test_damage_of_any_kind_gives_messages_or_an_input_error(tmp_path, content, spoil, name):
+    """`push_bag fuzz` does the same with more cases."""
     chance = random.Random(0)
-    path = tmp_path / 'damaged.mcap'
     for number in range(10):
+        path = tmp_path / f'damaged_{number}.mcap'
         path.write_bytes(spoil(bytearray(content), chance))
-        for work in (read_run, bag_info, partial(recover, folder=tmp_path / str(number))):
-            try:
-                work(path)
-            except InputError:
-                continue
-
-
-def bag_info(path):
-    return info.bag_text(BagReader(path))
+        with contextlib.suppress(InputError):
+            READINGS[name](path)
