@@ -21,7 +21,7 @@ def made_pushes(count: int, seed: int) -> PushSet:
     generator = np.random.default_rng(seed)
     p_y = generator.uniform(-0.044, 0.044, count)
     beta = generator.uniform(0.2, 2.9, count)
-    rate, _ = MotionCone(Slider()).evaluate(p_y, beta)
+    rate, _ = MotionCone(Slider(support_radius=0.0348)).evaluate(p_y, beta)
     noise = generator.normal(size=(count, 3)) * NOISE
     return PushSet(p_y, beta, rate * DISTANCE + noise, DISTANCE)
 

@@ -18,6 +18,7 @@ from push_mpc.predictor import Predictor
 from push_mpc.settings import ControllerSettings
 from push_mpc.steering import Programs, Steering
 from push_mpc.surrogate import Table
+from push_mpc.tracking_qp import Problem
 from push_mpc.velocity_steering import VelocitySteering
 
 _STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
@@ -95,6 +96,11 @@ class Controller:
     def model_id(self) -> str:
         """Name of the model in use, empty without one."""
         return self._model.model_id if self._model else ''
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """The programs that the latest tick solved, for who wants to solve them otherwise."""
+        return tuple(solver.problem for solver in self._steering.solvers)
 
     def prepared(self, table: Table, model_id: str) -> Model:
         """A model linearised along the plan; may run in another thread."""

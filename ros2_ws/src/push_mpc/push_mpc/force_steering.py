@@ -34,6 +34,8 @@ class ForceSteering:
         mode: in the first stage of the latest solution.
     """
 
+    solvers: tuple[TrackingQP, ...]
+
     def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
         self._settings = settings
         self._motion = ContactForce(slider)
@@ -41,7 +43,7 @@ class ForceSteering:
         self.mode = ContactMode.STICKING
         weights = settings.force_weights
         state_weights = [weights.position_x, weights.position_y, weights.heading, weights.contact]
-        self._programs = [
+        self.solvers = tuple(
             TrackingQP(
                 settings.horizon_steps,
                 self._space,
@@ -49,7 +51,7 @@ class ForceSteering:
                 np.array([weights.normal, weights.tangential, weights.slip]),
             )
             for _ in FAMILY
-        ]
+        )
 
     def programs(self, _model: TravelModel, plan: Plan, stride: int) -> Programs:
         """See `Steering.programs`; the limit surface is the slider's, whatever the model."""
@@ -61,7 +63,7 @@ class ForceSteering:
     def prepare(self, programs: Programs, window: Array) -> None:
         """See `Steering.prepare`."""
         sticking = programs.stages[0]
-        for program, first in zip(self._programs, programs.stages, strict=True):
+        for program, first in zip(self.solvers, programs.stages, strict=True):
             program.prepare(sticking, window, first)
 
     def solve(
@@ -74,7 +76,7 @@ class ForceSteering:
         disturbance: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        solutions = [each.solve(deviation, opening, disturbance) for each in self._programs]
+        solutions = [each.solve(deviation, opening, disturbance) for each in self.solvers]
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
         force = programs.plan.at(time)[1] + best.inputs[0]
         velocity = self._motion.tip_velocity(state[3], force)

@@ -202,7 +202,7 @@ def _begin_and_end(program: ca.Opti, task: Task, nodes: ca.MX, reference: Array)
 
 
 def _check(task: Task, nodes: Array, reference: Array, solved: bool) -> None:
-    away = np.hypot(*(nodes[:, :2] - reference[:, :2]).T)
+    away = np.hypot(*(nodes[:, :2] - reference[:, :2]).T)[: task.last + 1]
     worst = int(np.argmax(away))
     place = worst * task.stride * task.period * task.speed
     if not solved or away[worst] > _FARTHEST:

@@ -12,6 +12,7 @@ from push_core.frames import Array
 from push_mpc.dynamics import TravelModel
 from push_mpc.nominal import Plan
 from push_mpc.stages import Stages
+from push_mpc.tracking_qp import TrackingQP
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,13 @@ class Move:
 
 
 class Steering(Protocol):
-    """The programs of one tick."""
+    """The programs of one tick.
+
+    Attributes:
+        solvers: of each program.
+    """
+
+    solvers: tuple[TrackingQP, ...]
 
     def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
         """The programs about a plan, in stages of `stride` samples; needs no solver."""

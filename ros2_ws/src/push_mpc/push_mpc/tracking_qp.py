@@ -22,7 +22,7 @@ from push_mpc.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 
 # OSQP's solved, solved inaccurately, and out of iterations: near enough to steer by
 _USABLE_STATUS = (1, 2, 7)
-_OSQP = {
+OSQP_SETTINGS = {
     'verbose': False,
     'eps_abs': 3e-4,
     'eps_rel': 3e-4,
@@ -54,6 +54,50 @@ class Solution:
     def usable(self) -> bool:
         """Whether the inputs are finite and not a proof that there are none."""
         return self.status in _USABLE_STATUS and bool(np.isfinite(self.inputs).all())
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One program with numbers: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
+
+    The variables are the states (4 (N + 1) of them), then the inputs; the rows the dynamics, one
+    for each state, then the limits. All in the solver's units.
+
+    Attributes:
+        cost: diagonal of the quadratic part (n,).
+        linear: linear part (n,).
+        matrix: constraints (rows, n).
+        low: lower bounds (rows,).
+        high: upper bounds (rows,).
+        states: how many variables, and rows, come before the inputs and the limits.
+        units: of the variables (n,), of the rows (rows,), of the cost.
+    """
+
+    cost: Array
+    linear: Array
+    matrix: sparse.csc_matrix
+    low: Array
+    high: Array
+    states: int
+    units: tuple[Array, Array, float]
+
+    def in_si_units(self) -> 'Problem':
+        """The same program, as it is written down."""
+        variables, rows, cost = self.units
+        matrix = sparse.csc_matrix(
+            sparse.diags_array(rows) @ self.matrix @ sparse.diags_array(1.0 / variables)
+        )
+        matrix.sort_indices()
+        ones = np.ones_like(variables), np.ones_like(rows), 1.0
+        return Problem(
+            self.cost * cost / variables**2,
+            self.linear * cost / variables,
+            matrix,
+            self.low * rows,
+            self.high * rows,
+            self.states,
+            ones,
+        )
 
 
 class TrackingQP:
@@ -92,7 +136,7 @@ class TrackingQP:
             self._matrix,
             self._low,
             self._high,
-            **_OSQP,
+            **OSQP_SETTINGS,
         )
 
     def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
@@ -137,6 +181,23 @@ class TrackingQP:
         info = result.info
         return Solution(inputs, float(info.obj_val), int(info.status_val), int(info.iter))
 
+    @property
+    def problem(self) -> Problem:
+        """The program that was solved last, copied."""
+        steps, space = self.steps, self._space
+        variables = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.scale, steps)])
+        rows = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.rows_scale, steps)])
+        pattern = self._matrix.indices, self._matrix.indptr
+        return Problem(
+            self._cost,
+            self._linear.copy(),
+            sparse.csc_matrix((self._matrix.data.copy(), *pattern), shape=self._matrix.shape),
+            self._low.copy(),
+            self._high.copy(),
+            self._states,
+            (variables, rows, self._cost_unit),
+        )
+
     def _disturb(self, disturbance: Array) -> None:
         """Sets the drift, and the cost's linear part to where the best state and input are."""
         self._disturbance[1:] = disturbance
@@ -159,7 +220,8 @@ class TrackingQP:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""
         state, inputs = state_weights * STATE_SCALE**2, input_weights * self._space.scale**2
         diagonal = np.concatenate([np.tile(state, self.steps + 1), np.tile(inputs, self.steps)])
-        return np.asarray(2.0 * diagonal / diagonal.max())
+        self._cost_unit = float(diagonal.max())
+        return np.asarray(2.0 * diagonal / self._cost_unit)
 
     def _constraints(self) -> sparse.csc_matrix:
         """Rows: initial state and dynamics; then, for each stage, the next p_y and its inputs."""

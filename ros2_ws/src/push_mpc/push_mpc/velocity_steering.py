@@ -21,15 +21,18 @@ SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
 class VelocitySteering:
     """See `Steering`."""
 
+    solvers: tuple[TrackingQP, ...]
+
     def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
         self._settings, self._slider = settings, slider
         weights = settings.weights
-        self._qp = TrackingQP(
+        solver = TrackingQP(
             settings.horizon_steps,
             SPACE,
             np.array([weights.position, weights.position, weights.heading, weights.contact]),
             np.array([weights.normal, weights.tangential]),
         )
+        self.solvers = (solver,)
 
     def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
         """See `Steering.programs`."""
@@ -40,7 +43,7 @@ class VelocitySteering:
     def prepare(self, programs: Programs, window: Array) -> None:
         """See `Steering.prepare`."""
         (stages,) = programs.stages
-        self._qp.prepare(stages, window, stages)
+        self.solvers[0].prepare(stages, window, stages)
 
     def solve(
         self,
@@ -52,7 +55,7 @@ class VelocitySteering:
         disturbance: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        solution = self._qp.solve(deviation, opening, disturbance)
+        solution = self.solvers[0].solve(deviation, opening, disturbance)
         velocity = programs.plan.at(time)[1] + solution.inputs[0]
         return Move(velocity, solution.status, solution.iterations, solution.usable)
 

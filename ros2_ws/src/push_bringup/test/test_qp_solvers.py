@@ -1,0 +1,70 @@
+"""All solvers that are installed find the same first inputs."""
+
+import numpy as np
+import pytest
+from push_bringup.bench import main
+from push_bringup.cell_parameters import installed_config, resolved
+from push_bringup.in_process import InProcessCell
+from push_bringup.qp_recording import lap_request
+from push_bringup.qp_solvers import IN_SI_UNITS, SOLVERS, exact
+from push_gp.analytical_model import AnalyticalModel
+from push_mpc.controller import Mode
+from push_sim.perturbation import Kind, Perturbation
+
+
+@pytest.fixture(scope='module', params=['gp', 'analytical'])
+def recorded(request, tmp_path_factory):
+    """Each program of 60 ticks with a kick."""
+    folder = tmp_path_factory.mktemp('run')
+    wanted = lap_request(request.param, 'analytical', 0)
+    parameters = resolved(wanted, installed_config('cell.yaml'), folder, folder)
+    cell = InProcessCell(parameters, AnalyticalModel())
+    ticks = []
+
+    def on_tick(_observation, tick, _tick_ms) -> None:
+        if tick.mode == Mode.TRACKING:
+            ticks.append(cell.controller.problems)
+        if len(ticks) == 30:
+            cell.plant.perturb(Perturbation(Kind.TANGENTIAL, 0.02))
+        if len(ticks) == 60:
+            cell.controller.stop('enough')
+
+    cell.run(on_tick)
+    cell.close()
+    return ticks
+
+
+# OSQP's own defaults stop too early for this: that is what the benchmark shows
+@pytest.mark.parametrize('name', [name for name in SOLVERS if name not in IN_SI_UNITS])
+def test_a_solver_finds_the_exact_first_inputs(recorded, name) -> None:
+    for programs in zip(*recorded, strict=True):
+        try:
+            solver = SOLVERS[name](programs[0])
+        except ImportError:
+            pytest.skip(f'{name} is not installed; make setup EXTRA=bench')
+        reference = exact(programs[0])
+        for problem in programs[::7]:
+            found, _ = solver.solve(problem)
+            first = slice(problem.states, problem.states + 2)
+            assert np.abs(found - reference.solve(problem)[0])[first].max() < 0.05  # cm/s
+
+
+def test_the_program_in_si_units_is_the_same_program(recorded) -> None:
+    problem = recorded[-1][0]
+    again = problem.in_si_units()
+    z = np.random.default_rng(0).normal(size=problem.linear.size)
+    in_si = z * problem.units[0]
+    cost, scaled = (
+        0.5 * np.sum(each.cost * point**2) + each.linear @ point
+        for each, point in ((again, in_si), (problem, z))
+    )
+    assert cost == pytest.approx(problem.units[2] * scaled, rel=1e-12)
+    rows = (again.matrix @ in_si) / problem.units[1]
+    assert np.allclose(rows, problem.matrix @ z, rtol=0, atol=1e-9)
+
+
+def test_timing_has_a_help_of_its_own(capsys) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(['timing', '--help'])
+    assert ended.value.code == 0
+    assert 'CPU time' in capsys.readouterr().out
