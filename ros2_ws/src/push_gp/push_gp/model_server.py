@@ -1,5 +1,6 @@
 """Answers for one model: what the node does, without ROS."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,9 @@ class ModelServer:
         """
         self._model = model
         self._max_points = max_points
+        if isinstance(model, GpModel):
+            # factors now what the first question would otherwise wait for
+            self.predict(np.zeros(1), np.full(1, math.pi / 2.0), want_variance=True)
 
     @property
     def info(self) -> ModelInfo:

@@ -1,11 +1,16 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from push_core.errors import InputError, RunError
 from push_core.push_set import P_Y_LIMIT, PushSet
+from push_gp import gp
 from push_gp.analytical_model import AnalyticalModel
+from push_gp.gp import factor
 from push_gp.gp_model import GpModel
+from push_gp.model_file import load_model, save_model
 from push_gp.model_server import ModelServer
 
 NO_PUSHES = PushSet(np.zeros(0), np.zeros(0), np.zeros((0, 3)), 0.004)
@@ -61,6 +66,24 @@ def test_the_variance_is_given_only_where_it_is_asked_for(server: ModelServer) -
     assert server.predict(*one, want_variance=True).variance.size == 3
     with pytest.raises(RunError, match='no variance'):
         ModelServer(AnalyticalModel(), 80).predict(*one, want_variance=True)
+
+
+def test_the_first_variance_and_the_first_added_pushes_factor_no_covariance_of_all(
+    model: GpModel, more_pushes: PushSet, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    save_model(tmp_path / 'model.npz', model)
+    server = ModelServer(load_model(tmp_path / 'model.npz'), max_points=80)
+    sizes: list[int] = []
+
+    def watched(covariance: np.ndarray) -> np.ndarray:
+        sizes.append(len(covariance))
+        return factor(covariance)
+
+    monkeypatch.setattr(gp, 'factor', watched)
+    server.predict(more_pushes.p_y, more_pushes.beta, want_variance=True)
+    assert sizes == []
+    server.add_pushes(more_pushes)
+    assert max(sizes) == len(more_pushes)
 
 
 def test_added_pushes_change_answers_and_identity(
