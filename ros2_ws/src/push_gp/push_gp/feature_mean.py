@@ -32,9 +32,14 @@ class FeatureMean:
         self._coefficients = weighted @ np.swapaxes(around, 1, 2)
 
     @staticmethod
+    def size(processes: Sequence[Process]) -> int:
+        """How many features of each input there are."""
+        return _feature_count(_lengthscales(processes))
+
+    @staticmethod
     def suits(processes: Sequence[Process]) -> bool:
         """Whether the lengthscales are long enough for a small table."""
-        return _feature_count(_lengthscales(processes)) <= MOST_FEATURES
+        return FeatureMean.size(processes) <= MOST_FEATURES
 
     def evaluate(self, queries: Array) -> tuple[Array, Array]:
         """Mean (m, k) and Jacobian (m, k, 2) at (m, 2) queries within the domain."""

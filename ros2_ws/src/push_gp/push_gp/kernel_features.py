@@ -13,7 +13,7 @@ from scipy.special import pdtrc
 CUT_OFF = 1e-16
 """Largest error of a covariance of unit signal."""
 
-MOST_FEATURES = 200
+MOST_FEATURES = 300
 
 
 def enough_features(reach: float) -> int:

@@ -12,6 +12,9 @@ from push_gp.folded_process import Process
 WORTH_FOLDING = 250
 """Pushes from which the fixed cost of the features is less than that of all covariances."""
 
+PER_FEATURE = 5
+"""The same for each feature of an input, where short lengthscales need many."""
+
 
 class PosteriorMean:
     """Over the pushes themselves where they are few, else over features they were folded into."""
@@ -19,7 +22,8 @@ class PosteriorMean:
     def __init__(self, processes: Sequence[Process]) -> None:
         """Prepares both for processes that share their inputs."""
         self._over_pushes = BatchedMean(processes)
-        many = len(processes[0].outputs) >= WORTH_FOLDING
+        least = max(WORTH_FOLDING, PER_FEATURE * FeatureMean.size(processes))
+        many = len(processes[0].outputs) >= least
         folds = many and FeatureMean.suits(processes)
         self._over_features = FeatureMean(processes) if folds else None
 
