@@ -2,7 +2,7 @@
 
     gap = -side/2 - tip radius - x of the tip in the body frame (0 in contact),
     p_y = y of the tip in the body frame.
-A contact loss is an interval in TRACKING in which the gap is above LOST_GAP.
+A contact loss is an interval while the reference ran in which the gap is above LOST_GAP.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ END_GAP = 1.0e-3  # [m] up to which the pusher counts as on the face at the end
 
 @dataclass(frozen=True)
 class Contact:
-    """The contact at each instant in TRACKING of which both poses were recorded.
+    """The contact wherever both poses were recorded while the reference ran.
 
     Attributes:
         stamp: (n,) [ns].

@@ -86,8 +86,8 @@ def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
 
 
 def limited(run: RunSeries) -> dict[str, int]:
-    """Ticks in TRACKING in which each limit changed the command."""
-    bits = run.state('limited')[run.state('mode') == ControllerState.TRACKING].astype(np.int64)
+    """Ticks in which each limit changed the command while the reference ran."""
+    bits = run.state('limited')[run.following].astype(np.int64)
     return {name: int(np.count_nonzero(bits & bit)) for name, bit in LIMITS.items()}
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from push_msgs.msg import ControllerState
 
 from push_bag.traffic import Traffic
 
@@ -91,6 +92,8 @@ class Disturbance:
     magnitude: float
 
 
+# modes in which the reference runs
+FOLLOWING = (ControllerState.TRACKING, ControllerState.RECONTACT)
 # columns of `RunSeries.states`
 STATE_COLUMNS = (
     'mode',
@@ -141,3 +144,8 @@ class RunSeries:
     def state(self, name: str) -> Floats:
         """One column (n,) of the controller's ticks, by its name in STATE_COLUMNS."""
         return self.states.values[:, STATE_COLUMNS.index(name)]
+
+    @property
+    def following(self) -> NDArray[np.bool_]:
+        """Whether the reference ran in each of the controller's ticks (n,)."""
+        return np.isin(self.state('mode'), FOLLOWING)

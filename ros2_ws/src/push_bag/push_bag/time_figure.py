@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
-from push_msgs.msg import ControllerState
 
 from push_bag.contact import loss_intervals
 from push_bag.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled
@@ -74,7 +73,7 @@ def _add_contact(pen: Pen) -> None:
 
 def _add_inputs(pen: Pen) -> None:
     run = pen.view.run
-    ticks = run.state('mode') == ControllerState.TRACKING
+    ticks = run.following
     time = run.state('reference_time')[ticks]
     for row, name in ((5, 'v_n'), (6, 'v_t')):
         pen.line(row, f'commanded {name}', time, run.state(name)[ticks] * 1e3, BLUE)

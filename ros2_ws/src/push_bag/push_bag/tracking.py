@@ -1,6 +1,7 @@
 """How far the object was from its reference.
 
-For every recorded pose in TRACKING the controller states give the reference time of its exposure:
+For every pose recorded while the reference ran (TRACKING, RECONTACT) the controller states give
+the reference time of its exposure:
     tracking error = |position(t) - reference position(reference time)|, the paper's metric;
     cross-track error = signed distance to the nearest point of the reference path near that time,
         positive to the left of the path, whose ends go on straight;
@@ -12,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from push_msgs.msg import ControllerState
 
 from push_bag.segments import Segments
 from push_bag.series import Floats, Nanoseconds, Reference, RunSeries
@@ -48,13 +48,13 @@ class Tracking:
 
 
 def tracking_interval(run: RunSeries) -> tuple[int, int] | None:
-    """First and last stamp [ns] at which the controller was in TRACKING; None for never."""
-    stamps = run.states.stamp[run.state('mode') == ControllerState.TRACKING]
+    """First and last stamp [ns] at which the reference ran; None for never."""
+    stamps = run.states.stamp[run.following]
     return (int(stamps[0]), int(stamps[-1])) if stamps.size else None
 
 
 def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
-    """Whether each of the stamps (n,) lies in TRACKING."""
+    """Whether each of the stamps (n,) lies where the reference ran."""
     interval = tracking_interval(run)
     if interval is None:
         return np.zeros(stamps.size, np.bool_)
@@ -62,8 +62,8 @@ def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
 
 
 def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
-    """Reference time (n,) [s] at each of the stamps (n,) within TRACKING."""
-    ticks = run.state('mode') == ControllerState.TRACKING
+    """Reference time (n,) [s] at each of the stamps (n,) while the reference ran."""
+    ticks = run.following
     known = run.states.stamp[ticks]
     # differences of stamps: a float64 of the stamps themselves would round to 0.2 us
     times: Floats = np.interp(

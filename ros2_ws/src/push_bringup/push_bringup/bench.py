@@ -10,6 +10,7 @@ from push_core.command_line import Parser
 BENCHES = {
     'table': ('push_bringup.bench_table', "the paper's rows with both controllers"),
     'data': ('push_bringup.bench_data', 'the error of the GP controller over its training size'),
+    'ablation': ('push_bringup.bench_ablation', 'what each part of the controller is worth'),
     'model': ('push_bringup.bench_model', 'our Gaussian processes beside public libraries'),
     'timing': ('push_bringup.bench_timing', 'the quadratic programs of a lap by several solvers'),
 }

@@ -18,6 +18,7 @@ from push_core.tracks import TRACKS
 from push_gp.analytical_model import ANALYTICAL
 from push_gp.sealed_archive import read_sealed
 from push_mpc.planning import planned
+from push_mpc.presets import PRESETS
 from push_sim.settings import PROFILES
 
 from push_bringup.cell_parameters import CellParameters, installed_config, resolved
@@ -51,6 +52,12 @@ def parser() -> Parser:
         '--model', type=Path, metavar='FILE', help='for gp; default: 200 simulated pushes'
     )
     parser.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
+    parser.add_argument(
+        '--preset',
+        choices=PRESETS,
+        default='tuned',
+        help='of the controller; paper: its literal weights, h and N (default %(default)s)',
+    )
     parser.add_argument(
         '--perturb',
         choices=('none', 'normal', 'tangential'),
@@ -141,6 +148,7 @@ def _request(arguments: argparse.Namespace) -> Request:
         output=arguments.output,
         namespace=arguments.namespace.strip('/'),
         overrides=overrides,
+        preset=arguments.preset,
         params=arguments.params,
     )
 

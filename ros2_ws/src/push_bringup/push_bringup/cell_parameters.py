@@ -128,6 +128,7 @@ def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dic
             'speed': request.speed,
             'laps': request.laps,
             'controller': request.controller,
+            'preset': request.preset,
         },
         'recorder': {
             'folder': str(folder),
@@ -147,19 +148,21 @@ def _checked(values: dict[str, dict[str, Any]], overrides: Mapping[str, object])
     return CellParameters(*settings)
 
 
-def node_defaults(sim_profile: str, mpc_profile: str | None = None) -> dict[str, Any]:
+def node_defaults(
+    sim_profile: str, mpc_profile: str | None = None, preset: str = 'tuned'
+) -> dict[str, Any]:
     """Each node's own defaults; controller and plant may be of different profiles."""
     return {
         'sim_node': node_settings(sim_profile),
         'gp_server': ServerSettings(),
-        'mpc_node': mpc_settings(mpc_profile or sim_profile),
+        'mpc_node': mpc_settings(mpc_profile or sim_profile, preset),
         'recorder': RecorderSettings(),
     }
 
 
 def _defaults(values: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    profiles = (str(values[node].get('profile', 'irb120')) for node in ('sim_node', 'mpc_node'))
-    return node_defaults(*profiles)
+    sim, mpc = (str(values[node].get('profile', 'irb120')) for node in ('sim_node', 'mpc_node'))
+    return node_defaults(sim, mpc, str(values['mpc_node'].get('preset', 'tuned')))
 
 
 def _owners(defaults: Mapping[str, Any], name: str) -> list[tuple[str, str]]:

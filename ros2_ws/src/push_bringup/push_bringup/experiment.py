@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from push_gp.model_source import model_named
-from push_mpc.controller import Mode, Tick
+from push_mpc.tick import FOLLOWING, Tick
 from push_sim.plant import Observation
 
 from push_bringup.cell_parameters import CellParameters, installed_config, resolved
@@ -147,7 +147,7 @@ class _Watched:
 
     def on_tick(self, observation: Observation, tick: Tick, _tick_ms: float) -> None:
         """Takes one tick."""
-        if tick.mode != Mode.TRACKING or tick.reference_time <= 0.0:
+        if tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
             return
         wanted = self._plan.at(tick.reference_time)[0]
         x, y = (observation.object_pose[:2] * 1e3).tolist()

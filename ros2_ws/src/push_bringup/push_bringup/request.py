@@ -20,6 +20,7 @@ class Request:
         mode: realtime, lockstep or inprocess.
         output: folder in which the run's own folder is made.
         namespace: of the node graph; '' for none.
+        preset: tuned or paper, for the controller.
         overrides: further parameters, by name or by node.name.
         params: parameter file over that of the cell, or None.
     """
@@ -37,3 +38,4 @@ class Request:
     namespace: str
     overrides: dict[str, object]
     params: Path | None = None
+    preset: str = 'tuned'

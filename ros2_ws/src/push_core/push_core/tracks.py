@@ -185,7 +185,13 @@ def line() -> Track:
     return ArcTrack('line', [(LINE_LENGTH, 0.0)], heading=0.0, closed=False)
 
 
-TRACKS = {'eight': eight, 'square': square, 'line': line}
+def circle() -> Track:
+    """The left circle of the 8-track."""
+    pieces = [(2.0 * math.pi * EIGHT_RADIUS, 1.0 / EIGHT_RADIUS)]
+    return ArcTrack('circle', pieces, heading=math.pi / 2.0, closed=True)
+
+
+TRACKS = {'eight': eight, 'square': square, 'line': line, 'circle': circle}
 
 
 def by_name(name: str) -> Track:

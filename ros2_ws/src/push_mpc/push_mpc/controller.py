@@ -4,22 +4,27 @@ import math
 import time as clock
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 from push_core.frames import Array, rotation, wrap_angle
 from push_core.safety import limit
 from push_core.slider import Slider
 
+from push_mpc.consistent_plan import consistent_plan
 from push_mpc.disturbance import Disturbance
+from push_mpc.dynamics import TravelMotion
 from push_mpc.force_steering import ForceSteering
 from push_mpc.nominal import Plan
 from push_mpc.predictor import Predictor
+from push_mpc.recontact import approach, departure, is_apart
 from push_mpc.settings import ControllerSettings
 from push_mpc.steering import Programs, Steering
 from push_mpc.surrogate import Table
+from push_mpc.tick import FOLLOWING, Mode, Tick
 from push_mpc.tracking_qp import Problem
 from push_mpc.velocity_steering import VelocitySteering
+
+__all__ = ['Controller', 'Mode', 'Tick']
 
 _STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
     'gp': VelocitySteering,
@@ -27,17 +32,6 @@ _STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
 }
 _STILL = np.zeros(2)
 _FARTHEST = 1e3  # [m], [rad]; a pose beyond it is a fault of whoever measured it
-
-
-class Mode(IntEnum):
-    """What the controller is doing; the numbers are those of push_msgs/ControllerState."""
-
-    IDLE = 0
-    ARMED = 1
-    TRACKING = 2
-    DONE = 3
-    STOPPED = 4
-    HOLDING = 5
 
 
 @dataclass(frozen=True)
@@ -48,27 +42,6 @@ class Model:
     plan: Plan
     programs: Programs
     model_id: str
-
-
-@dataclass
-class Tick:
-    """What one tick saw, planned and did; see push_msgs/ControllerState for the fields."""
-
-    mode: Mode
-    velocity: Array
-    reference_time: float = -math.inf
-    exposure: float = math.nan
-    now: float = math.nan
-    state: Array | None = None
-    predicted: Array | None = None
-    reference: Array | None = None
-    gap: float = 0.0
-    input: Array | None = None
-    nominal_input: Array | None = None
-    solve_ms: float = 0.0
-    iterations: int = 0
-    solver_status: int = 0
-    limited: int = 0
 
 
 class Controller:
@@ -103,9 +76,12 @@ class Controller:
         return tuple(solver.problem for solver in self._steering.solvers)
 
     def prepared(self, table: Table, model_id: str) -> Model:
-        """A model linearised along the plan; may run in another thread."""
-        programs = self._steering.programs(table, self.plan, self._stride)
-        return Model(table, self.plan, programs, model_id)
+        """A model with a plan of its own, linearised along it; may run in another thread."""
+        plan = self.plan
+        if self.settings.consistent_plan:
+            plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
+        programs = self._steering.programs(table, plan, self._stride)
+        return Model(table, plan, programs, model_id)
 
     def use(self, model: Model) -> None:
         """Takes a prepared model from the next tick on, and warms the solver up."""
@@ -162,7 +138,7 @@ class Controller:
         if self.mode == Mode.ARMED:
             self._count_poses(now)
         tick = self._follow(object_pose, tip, exposure, now)
-        if self.mode != Mode.TRACKING:
+        if self.mode not in FOLLOWING:
             tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
         self._remember(tick.velocity, now)
         return tick
@@ -170,7 +146,7 @@ class Controller:
     def _remember(self, velocity: Array, now: float) -> None:
         """Keeps a command in mind; before and after tracking they are all zero."""
         self._sent = velocity
-        if self.mode == Mode.TRACKING:
+        if self.mode in FOLLOWING:
             self._predictor.sent(velocity, now)
 
     def prepare_next(self) -> None:
@@ -186,7 +162,7 @@ class Controller:
 
     def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         """Reference, prediction and plan of a tick that may move the tip."""
-        if self.mode != Mode.TRACKING or self._model is None:
+        if self.mode not in FOLLOWING or self._model is None:
             return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
         reference_time = exposure - self._start
         if reference_time >= self.plan.duration:
@@ -198,21 +174,46 @@ class Controller:
             pose, tip_then = self._predictor.predict(
                 self._model.table, self._disturbance.rate, object_pose, tip, exposure, acts_at
             )
-        predicted = self._state(pose, tip_then)
-        started = clock.perf_counter()
-        inputs, tick = self._solve(predicted, acts_at - self._start)
-        tick.solve_ms = 1e3 * (clock.perf_counter() - started)
+        predicted, gap = self._state(pose, tip_then), self._slider.gap(pose, tip_then)
+        self._watch_contact(object_pose, tip, gap)
+        tick = self._move(predicted, gap, acts_at - self._start)
         tick.reference_time = reference_time
         tick.state = self._state(object_pose, tip)
         tick.gap = self._slider.gap(object_pose, tip)
-        self._limit(tick, inputs, predicted[2], tip)
+        self._limit(tick, predicted[2], tip)
+        return tick
+
+    def _watch_contact(self, object_pose: Array, tip: Array, gap: float) -> None:
+        """Changes between tracking and approach; `gap` [m] is that of the predicted instant."""
+        if self.mode not in FOLLOWING:
+            return
+        seen = self._slider.gap(object_pose, tip)
+        left = departure(self._slider, seen, self._slider.contact_offset(object_pose, tip))
+        if left:
+            self.stop(left)
+            return
+        was_apart = self.mode == Mode.RECONTACT
+        # both: a gap that closes by itself, or one that only the prediction sees, needs nothing
+        apart = is_apart(self.settings.recontact, min(seen, gap), was_apart)
+        self.mode = Mode.RECONTACT if apart else Mode.TRACKING
+
+    def _move(self, predicted: Array, gap: float, reference_time: float) -> Tick:
+        """Approaches the face or solves the program, for a state at a time of the reference."""
+        assert self._model is not None
+        if self.mode != Mode.RECONTACT:
+            return self._solve(predicted, reference_time)
+        reference, nominal = self._model.plan.at(reference_time)
+        wanted = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
+        tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=wanted)
+        tick.nominal_input = nominal
         return tick
 
     def _state(self, object_pose: Array, tip: Array) -> Array:
         return np.array([*object_pose, self._slider.contact_offset(object_pose, tip)])
 
-    def _solve(self, state: Array, reference_time: float) -> tuple[Array, Tick]:
-        """Input (2,) [m/s] for a state (4,) at a time of the reference."""
+    def _solve(self, state: Array, reference_time: float) -> Tick:
+        """Finds the input for a state (4,) at a time of the reference."""
+        started = clock.perf_counter()
         model = self._model
         assert model is not None
         reference, nominal = model.plan.at(reference_time)
@@ -226,16 +227,17 @@ class Controller:
         )
         if not move.usable:
             self.stop(f'the solver found no input (status {move.status})')
-        tick = Tick(
+        return Tick(
             self.mode,
             _STILL,
             predicted=state,
             reference=reference,
+            input=move.velocity,
             nominal_input=nominal,
+            solve_ms=1e3 * (clock.perf_counter() - started),
             iterations=move.iterations,
             solver_status=move.status,
         )
-        return move.velocity, tick
 
     def _prepare(self, model: Model, sample: int) -> None:
         """Readies the program for a horizon that starts at a sample, if it is not ready yet."""
@@ -246,10 +248,10 @@ class Controller:
         self._steering.prepare(model.programs, self._window)
         self._prepared = (model.model_id, sample)
 
-    def _limit(self, tick: Tick, inputs: Array, heading: float, tip: Array) -> None:
+    def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
         """Turns the input into the command to send, within the safety limits."""
         turn = rotation(heading)
-        wanted = turn @ inputs
+        wanted = turn @ tick.input
         tick.velocity, tick.limited = limit(
             wanted, self._sent, tip, self.settings.limits, self.settings.period
         )
@@ -257,7 +259,9 @@ class Controller:
 
 
 def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
-    """Samples of the plan in one horizon step, so that the horizon spans its length of path."""
+    """Samples of the plan in one horizon step: so long, or as the length of path asks for."""
+    if settings.horizon_step > 0.0:
+        return max(1, round(settings.horizon_step / plan.period))
     speed = math.hypot(*np.diff(plan.state[:2, :2], axis=0)[0]) / plan.period
     step = settings.horizon_length / settings.horizon_steps / speed
     return max(1, round(step / plan.period))

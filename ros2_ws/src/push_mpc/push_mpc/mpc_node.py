@@ -28,7 +28,7 @@ from push_mpc.tabulation import Tabulated
 
 WATCHDOG_PERIOD = 0.01  # [s]
 REPORT_PERIOD = 1.0  # [s]
-_MOVING = (Mode.ARMED, Mode.TRACKING)
+_MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
 
 class MpcNode(Node):  # type: ignore[misc]
@@ -36,7 +36,8 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def __init__(self) -> None:
         super().__init__('mpc_node')
-        self._settings = declared(self, mpc_settings(override(self, 'profile', 'irb120')))
+        bundles = override(self, 'profile', 'irb120'), override(self, 'preset', 'tuned')
+        self._settings = declared(self, mpc_settings(*bundles))
         self._controller = Controller(
             self._settings, self._settings.slider, planned(self._settings)
         )

@@ -6,6 +6,7 @@ from push_core.actuator import ACTUATORS
 from push_core.settings import nested, setting, validate
 from push_core.slider import Slider
 
+from push_mpc.presets import PRESETS, with_preset
 from push_mpc.settings import ControllerSettings
 
 
@@ -13,7 +14,7 @@ from push_mpc.settings import ControllerSettings
 class MpcSettings(ControllerSettings):
     """Parameters of mpc_node."""
 
-    track: str = setting('eight', 'eight, square, line or a .csv file of x, y [m]')
+    track: str = setting('eight', 'eight, square, line, circle or a .csv file of x, y [m]')
     speed: float = setting(
         0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
     )
@@ -29,6 +30,9 @@ class MpcSettings(ControllerSettings):
     end_heading: str = setting('free', 'of the object at the end, likewise')
     profile: str = setting(
         'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
+    )
+    preset: str = setting(
+        'tuned', 'bundle of defaults; paper: the literal weights, h and N', choices=PRESETS
     )
     mode: str = setting(
         'realtime', 'what the clock is: the wall or /clock', choices=('realtime', 'lockstep')
@@ -46,7 +50,8 @@ class MpcSettings(ControllerSettings):
         validate(self)
 
 
-def mpc_settings(profile: str) -> MpcSettings:
-    """The node's defaults with the robot of a profile; validation names an unknown one."""
+def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
+    """The node's defaults with robot and preset; validation names one that is unknown."""
     actuator = ACTUATORS.get(profile, MpcSettings().actuator)
-    return replace(MpcSettings(), profile=profile, actuator=actuator)
+    robot = replace(MpcSettings(), profile=profile, preset=preset, actuator=actuator)
+    return with_preset(robot, preset)

@@ -32,6 +32,12 @@ def planned(settings: MpcSettings) -> Plan:
     _check_workspace(track, settings.limits)
     if settings.laps > 1 and not track.closed:
         raise InputError(f'track {track.name} is open and has no second lap')
+    plan = _plan(settings, track)
+    _check_pushes(plan, settings)
+    return plan
+
+
+def _plan(settings: MpcSettings, track: tracks.Track) -> Plan:
     task = _task(settings, track)
     if settings.planner == 'optimal' or task.headings != (None, None):
         return optimal_plan(task)
@@ -43,6 +49,28 @@ def planned(settings: MpcSettings) -> Plan:
         if settings.planner == 'flat':
             raise
         return optimal_plan(task)
+
+
+def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
+    """What the plan asks of the pusher has to be within its limits everywhere."""
+    tracked = plan.time <= plan.duration
+    v_n, v_t = np.abs(plan.input[tracked].T)
+    p_y = np.abs(plan.state[tracked, 3])
+    fastest = min(settings.limits.speed, settings.actuator.speed_limit)
+    checks = (
+        (np.hypot(v_n, v_t), fastest, 'a pusher speed of {:.3f} m/s'),
+        (v_n, settings.normal_speed_limit, 'v_n = {:.3f} m/s'),
+        (v_t, settings.tangential_speed_limit, '|v_t| = {:.3f} m/s'),
+        (p_y, 0.5 * settings.slider.side, '|p_y| = {:.3f} m'),
+    )
+    for values, limit, what in checks:
+        worst = int(np.argmax(values))
+        if values[worst] > limit:
+            raise InputError(
+                f'track {settings.track} at {settings.speed:g} m/s asks for '
+                f'{what.format(values[worst])} near {1e3 * settings.speed * plan.time[worst]:.0f} '
+                f'mm along it; the limit is {limit:g}, so take a lower speed or a wider track'
+            )
 
 
 def _task(settings: MpcSettings, track: tracks.Track) -> Task:

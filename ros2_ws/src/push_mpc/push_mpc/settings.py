@@ -6,12 +6,15 @@ from push_core.actuator import ActuatorSettings
 from push_core.safety import SafetyLimits
 from push_core.settings import nested, setting, validate
 
+from push_mpc.recontact import RecontactSettings
+
 
 @dataclass(frozen=True)
 class Weights:
     """Diagonals of Q and R: cost per squared deviation from the nominal."""
 
-    position: float = setting(6000.0, 'object position', unit='1/m^2', low=0.0, high=1e9)
+    position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
+    position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
     heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
     contact: float = setting(30.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
     normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
@@ -51,12 +54,22 @@ class ControllerSettings:
     horizon_length: float = setting(
         0.084, 'path that the horizon spans', unit='m', low=0.001, high=1.0
     )
+    horizon_step: float = setting(
+        0.0,
+        'time of a step of the horizon; 0: horizon_length decides',
+        unit='s',
+        low=0.0,
+        high=1.0,
+    )
     weights: Weights = nested(Weights())
     force_weights: ForceWeights = nested(ForceWeights())
     normal_speed_limit: float = setting(
         0.25, 'largest v_n; the smallest is 0', unit='m/s', low=1e-3, high=2.0
     )
     tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
+    consistent_plan: bool = setting(
+        True, "plan anew with the model's own motion equations when a model arrives"
+    )
     disturbance_length: float = setting(
         0.05,
         'travel over which the model error is estimated; 0 leaves it out',
@@ -67,6 +80,7 @@ class ControllerSettings:
     delay_compensation: bool = setting(
         True, 'roll the measured state forward through the commands already sent'
     )
+    recontact: RecontactSettings = nested(RecontactSettings())
     actuator: ActuatorSettings = nested(ActuatorSettings())
     limits: SafetyLimits = nested(SafetyLimits())
     good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)

@@ -29,7 +29,7 @@ class VelocitySteering:
         solver = TrackingQP(
             settings.horizon_steps,
             SPACE,
-            np.array([weights.position, weights.position, weights.heading, weights.contact]),
+            np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
             np.array([weights.normal, weights.tangential]),
         )
         self.solvers = (solver,)

@@ -113,7 +113,7 @@ def make_cell(table: Table) -> Iterator[Callable[[MpcSettings], Cell]]:
 @pytest.fixture
 def cell(make_cell: Callable[[MpcSettings], Cell]) -> Cell:
     """An armed cell on the 8-track."""
-    made = make_cell(replace(mpc_settings('irb120'), good_poses=3))
+    made = make_cell(replace(mpc_settings('irb120'), good_poses=3, consistent_plan=False))
     made.controller.arm()
     return made
 

@@ -13,7 +13,7 @@ from push_mpc.planning import planned
 from push_mpc.steering import Move
 
 SETTINGS = mpc_settings('irb120')
-MODES = {Mode.TRACKING, Mode.DONE, Mode.STOPPED}
+MODES = {Mode.TRACKING, Mode.RECONTACT, Mode.DONE, Mode.STOPPED}
 
 
 def is_still(tick) -> bool:
@@ -140,7 +140,7 @@ def test_waiting_does_not_pile_up_commands(tracking) -> None:
     assert len(tracking.controller._predictor._now._queue) < 20
 
 
-@pytest.mark.parametrize(('speed', 'stride'), [(0.08, 3), (0.05, 5), (0.02, 12), (0.25, 1)])
+@pytest.mark.parametrize(('speed', 'stride'), [(0.08, 3), (0.05, 5), (0.02, 12), (0.22, 1)])
 def test_the_horizon_is_a_length_of_path_at_any_speed(speed, stride) -> None:
     slow = replace(SETTINGS, speed=speed)
     assert horizon_stride(planned(slow), slow) == stride

@@ -13,7 +13,9 @@ from push_mpc.node_settings import mpc_settings
 from push_mpc.nominal import flat_plan
 from push_sim.perturbation import Kind
 
-SETTINGS = replace(mpc_settings('irb120'), controller='analytical', good_poses=3)
+SETTINGS = replace(
+    mpc_settings('irb120'), controller='analytical', good_poses=3, consistent_plan=False
+)
 WEIGHTS = SETTINGS.force_weights
 STATE_WEIGHTS = np.array(
     [WEIGHTS.position_x, WEIGHTS.position_y, WEIGHTS.heading, WEIGHTS.contact]

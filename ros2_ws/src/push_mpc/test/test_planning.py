@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import pytest
 from push_core.errors import InputError
+from push_mpc.controller import horizon_stride
 from push_mpc.node_settings import mpc_settings
 from push_mpc.planning import planned
 
@@ -39,3 +40,28 @@ def test_an_unknown_track_is_refused() -> None:
 def test_an_unknown_profile_is_refused() -> None:
     with pytest.raises(InputError, match="profile is 'kuka', must be one of irb120, harsh, ideal"):
         mpc_settings('kuka')
+
+
+def test_the_preset_of_the_paper_has_its_literal_weights_and_horizon() -> None:
+    paper = mpc_settings('irb120', 'paper')
+    weights = paper.weights
+    state_weights = (weights.position_x, weights.position_y, weights.heading, weights.contact)
+    assert state_weights == (6000.0, 3000.0, 10.0, 3000.0)
+    assert (weights.normal, weights.tangential) == (10.0, 0.001)
+    assert paper.horizon_steps == 35
+    for speed in (0.02, 0.08):
+        slow = replace(paper, speed=speed)
+        assert horizon_stride(planned(slow), slow) * slow.period == 0.01
+
+
+def test_an_unknown_preset_is_refused() -> None:
+    with pytest.raises(InputError, match="preset is 'mine', must be one of tuned, paper"):
+        mpc_settings('irb120', 'mine')
+
+
+def test_a_track_that_asks_too_much_of_the_pusher_is_refused_with_the_place() -> None:
+    with pytest.raises(InputError, match=r'asks for a pusher speed of 0.3\d+ m/s near \d+ mm'):
+        planned(replace(SETTINGS, track='square', speed=0.248))
+    narrow = replace(SETTINGS, track='square', speed=0.1, tangential_speed_limit=0.05)
+    with pytest.raises(InputError, match=r'\|v_t\| = 0.0\d+ m/s near \d+ mm .* limit is 0.05'):
+        planned(narrow)
