@@ -20,6 +20,7 @@ setup(
             'score = push_bag.score_command:main',
             'info = push_bag.info:main',
             'replay = push_bag.replay:main',
+            'live = push_bag.live:main',
             'recover = push_bag.recover:main',
             'bench = push_bag.recorder_bench:main',
             'fuzz = push_bag.fuzz:main',

@@ -1,18 +1,41 @@
-"""A recording in progress: finds publishers, takes their messages, writes them to the bag."""
+"""A recording in progress: finds publishers, takes their messages, hands them to a sink."""
 
 import json
 from collections.abc import Collection, Mapping
 from fnmatch import fnmatchcase
+from typing import Protocol
 
 import rclpy
 from push_core.errors import InputError
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from push_bag.bag_writer import COUNTS_RECORD, BagWriter
+from push_bag.bag_writer import COUNTS_RECORD
 from push_bag.qos_text import qos_text
 from push_bag.raw_subscription import RawSubscription
 from push_bag.traffic import Traffic
+
+
+class RawSink(Protocol):
+    """Takes serialized messages; a `BagWriter`, whose methods say more, or a `LiveServer`."""
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it takes messages."""
+
+    def add_topic(self, name: str, type_name: str, qos_yaml: str) -> None:
+        """Declares a topic before its first message."""
+
+    def write(
+        self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0, /
+    ) -> None:
+        """Takes one message of a topic."""
+
+    def flush(self) -> None:
+        """Hands on what waits."""
+
+    def close(self) -> None:
+        """Ends."""
 
 
 class Recording:
@@ -24,13 +47,18 @@ class Recording:
     """
 
     def __init__(
-        self, writer: BagWriter, topics: Collection[str], offers: Mapping[str, QoSProfile]
+        self, writer: RawSink, topics: Collection[str], offers: Mapping[str, QoSProfile]
     ) -> None:
         """Starts with nothing subscribed.
 
         Args:
+<<<<<<< HEAD
             writer: the open bag; closed by `close`.
             topics: full names of the topics to record, or patterns of names such as `/arm/*`.
+=======
+            writer: the open bag, or who else wants them; closed by `close`.
+            topics: full names of the topics to record.
+>>>>>>> a50e685 (Show a running or replayed cell in the browser)
             offers: what is known of the publishers' profiles by topic; discovery does not tell
                 their depth, so the bag states these where it can.
         """

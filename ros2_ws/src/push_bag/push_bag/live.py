@@ -1,0 +1,67 @@
+"""The live view: every topic of a running or replayed cell, in the browser.
+
+ros2 run push_bag live          then open https://app.foxglove.dev, "Open connection",
+ws://127.0.0.1:8765, and import the layout
+"""
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from push_core.settings import setting, validate
+from push_node.parameters import declared
+from push_node.spin import run_node
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+from push_bag.cell_topics import CELL_TOPICS
+from push_bag.live_server import LiveServer
+from push_bag.recorder_settings import split_list
+from push_bag.recording import Recording
+
+DRAIN_PERIOD = 0.02  # [s]; a browser draws no faster
+DISCOVERY_PERIOD = 0.2  # [s]
+
+
+@dataclass(frozen=True)
+class LiveSettings:
+    """Parameters of the live view."""
+
+    host: str = setting('127.0.0.1', 'address to listen at; 0.0.0.0 for every network')
+    port: int = setting(8765, 'TCP port; 0 takes any that is free', low=0, high=65535)
+    topics: str = setting('', 'topics to show beside those of the cell, separated by commas')
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+class Live(Node):  # type: ignore[misc]
+    """Hands on what the cell publishes."""
+
+    def __init__(self) -> None:
+        super().__init__('live')
+        settings = declared(self, LiveSettings())
+        offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
+        others = {self.resolve_topic_name(name) for name in split_list(settings.topics)}
+        server = LiveServer(settings.host, settings.port)
+        self._recording = Recording(server, {*offers, *others}, offers)
+        # simulated time may stand still
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(DRAIN_PERIOD, self._recording.drain, clock=steady)
+        self.create_timer(DISCOVERY_PERIOD, self._recording.discover, clock=steady)
+        address = f'ws://{settings.host}:{server.port}'
+        self.get_logger().info(f'open {address} in Foxglove (https://app.foxglove.dev)')
+
+    def destroy_node(self) -> None:
+        """Stops to listen as well."""
+        self._recording.close()
+        super().destroy_node()
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Serves until SIGINT or SIGTERM."""
+    return run_node(Live, argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
