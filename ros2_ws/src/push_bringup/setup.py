@@ -15,7 +15,7 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/push_bringup']),
         ('share/push_bringup', ['package.xml']),
-        ('share/push_bringup/config', [str(path) for path in Path('config').glob('*.*ml')]),
+        ('share/push_bringup/config', [str(path) for path in Path('config').glob('*.*')]),
         ('share/push_bringup/launch', [str(path) for path in Path('launch').glob('*.py')]),
     ],
     install_requires=['setuptools'],
