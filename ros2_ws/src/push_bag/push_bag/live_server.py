@@ -4,6 +4,7 @@ Takes the place of a bag: a `Recording` writes into it what would go into a file
 latched topics are kept and shown again to whoever subscribes later, as DDS does.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import foxglove
@@ -74,6 +75,9 @@ class LiveServer(ServerListener):
 
     def flush(self) -> None:
         """Nothing waits."""
+
+    def note(self, _name: str, _values: Mapping[str, str]) -> None:
+        """Nobody asks how the recording went."""
 
     def close(self) -> None:
         """Stops to listen."""

@@ -34,6 +34,9 @@ class RawSink(Protocol):
     def flush(self) -> None:
         """Hands on what waits."""
 
+    def note(self, name: str, values: Mapping[str, str]) -> None:
+        """Takes a remark on the recording."""
+
     def close(self) -> None:
         """Ends."""
 
@@ -52,13 +55,13 @@ class Recording:
         """Starts with nothing subscribed.
 
         Args:
-<<<<<<< HEAD
+        <<<<<<< HEAD
             writer: the open bag; closed by `close`.
             topics: full names of the topics to record, or patterns of names such as `/arm/*`.
-=======
+        =======
             writer: the open bag, or who else wants them; closed by `close`.
             topics: full names of the topics to record.
->>>>>>> a50e685 (Show a running or replayed cell in the browser)
+        >>>>>>> a50e685 (Show a running or replayed cell in the browser)
             offers: what is known of the publishers' profiles by topic; discovery does not tell
                 their depth, so the bag states these where it can.
         """
