@@ -55,13 +55,8 @@ class Recording:
         """Starts with nothing subscribed.
 
         Args:
-        <<<<<<< HEAD
-            writer: the open bag; closed by `close`.
-            topics: full names of the topics to record, or patterns of names such as `/arm/*`.
-        =======
             writer: the open bag, or who else wants them; closed by `close`.
-            topics: full names of the topics to record.
-        >>>>>>> a50e685 (Show a running or replayed cell in the browser)
+            topics: full names of the topics to record, or patterns of names such as `/arm/*`.
             offers: what is known of the publishers' profiles by topic; discovery does not tell
                 their depth, so the bag states these where it can.
         """
