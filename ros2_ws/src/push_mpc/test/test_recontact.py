@@ -72,5 +72,9 @@ def test_the_approach_slows_down_near_the_face_but_arrives(slider) -> None:
     assert far > near > touching > 0.0
 
 
+def test_a_picture_that_froze_while_the_tip_moved_on_is_no_departure(slider) -> None:
+    assert not departure(slider, -0.008, 0.01)
+
+
 def test_a_tip_in_front_of_the_face_has_not_left(slider) -> None:
     assert all(not departure(slider, gap, p_y) for gap in (0.0, -1e-3, 0.1) for p_y in (0.0, 0.06))
