@@ -86,5 +86,5 @@ def test_the_next_lap_goes_on_without_a_jump(name) -> None:
 
 
 def test_an_unknown_name_is_refused_with_those_that_exist() -> None:
-    with pytest.raises(InputError, match=r"unknown track 'circle'; use eight, square, line or"):
-        tracks.by_name('circle')
+    with pytest.raises(InputError, match=r"unknown track 'spiral'; use eight, square, line"):
+        tracks.by_name('spiral')

@@ -14,6 +14,7 @@ from push_node.parameters import declared, override
 from push_node.realtime import settled
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -26,6 +27,7 @@ from push_mpc.pose_pair import PosePair
 from push_mpc.recorder_watch import RecorderWatch
 from push_mpc.tabulation import Tabulated
 
+LAST_WORD_TIMEOUT = 0.3  # [s] for the last command to arrive
 WATCHDOG_PERIOD = 0.01  # [s]
 REPORT_PERIOD = 1.0  # [s]
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
@@ -61,6 +63,8 @@ class MpcNode(Node):  # type: ignore[misc]
         """Leaves the tip at rest."""
         if self._controller.mode in _MOVING:
             self._halt('the controller was shut down')
+            # a publisher that goes away takes along what has not arrived
+            self._commands.wait_for_all_acked(Duration(seconds=LAST_WORD_TIMEOUT))
         self._model.close()
         super().destroy_node()
 
