@@ -22,6 +22,7 @@ _SHORTEST = 1e-3  # of a Gauss-Newton step
 _DONE = 1e-3  # relative gain of a step that is not worth another one
 _SLACK = 2e-6  # [m], [rad]: what an interval may miss of the motion equations
 _DEFECT_PRICE = 1e3
+_LARGEST_CHANGE = 0.5  # of [v_n, v_t] / speed from the guess
 _DAMPING = 1e-5  # of a change of [v_n, v_t] / speed
 
 NX, NU = 4, 2
@@ -53,11 +54,13 @@ def consistent_plan(plan: Plan, motion: Motion) -> Plan:
         motion: under tip velocities.
 
     Returns:
-        The new plan, or the given one where none was found.
+        The new plan, or the given one where none was found, or only one that slides a lot.
     """
     problem = _Problem(plan, motion)
     found = problem.solved()
-    return plan if found is None else problem.sampled(found)
+    if found is None or problem.departs(found):
+        return plan
+    return problem.sampled(found)
 
 
 class _Problem:
@@ -94,6 +97,14 @@ class _Problem:
             if share == 1.0 and merit > (1.0 - _DONE) * before:
                 break
         return now if np.abs(self._defect(now)).max() < _SLACK else None
+
+    def departs(self, found: _Trajectory) -> bool:
+        """Whether its inputs leave the guess so far that the contact slides a lot.
+
+        There the model is known least: on corners that are tighter than sticking allows, the
+        error with such a plan is half as large again as with the flat one.
+        """
+        return bool(np.abs(found.input - self._guess.input).max() > _LARGEST_CHANGE)
 
     def _share(self, now: _Trajectory, change: _Trajectory, merit: float) -> float:
         """How much of a step makes things better."""

@@ -61,3 +61,9 @@ def test_a_model_that_makes_no_sense_leaves_the_plan_as_it_is(flat, slider) -> N
             return np.full((len(p_y), 3), np.nan), np.full((len(p_y), 3, 2), np.nan)
 
     assert consistent_plan(flat, TravelMotion(Nonsense(), slider.tip_x)) is flat
+
+
+def test_a_plan_that_slides_a_lot_is_not_taken(flat, plan, motion, monkeypatch) -> None:
+    asked = np.abs(plan.input - flat.input).max() / SPEED
+    monkeypatch.setattr('push_mpc.consistent_plan._LARGEST_CHANGE', 0.8 * asked)
+    assert consistent_plan(flat, motion) is flat
