@@ -41,7 +41,7 @@ class MpcSettings(ControllerSettings):
         0.03, 'age of the newest pose from which it holds still', unit='s', low=0.011, high=1.0
     )
     pose_loss: float = setting(
-        0.2, 'age of the newest pose at which it stops for good', unit='s', low=0.011, high=10.0
+        0.5, 'age of the newest pose at which it stops for good', unit='s', low=0.011, high=10.0
     )
     require_recorder: bool = setting(True, 'start only while the recorder records')
     slider: Slider = nested(Slider())
