@@ -64,7 +64,7 @@ class WorldSettings:
     damping: float = setting(200.0, 'damping of each foot', unit='N s/m', low=0.0, high=1e5)
     solver_iterations: int = setting(200, 'most iterations a step', low=10, high=10000)
     solver_residual: float = setting(
-        1e-9, 'squared impulse error of a 1 ms step at which iterating ends', low=0.0, high=1e-3
+        1e-10, 'squared impulse error of a 1 ms step at which iterating ends', low=0.0, high=1e-3
     )
 
     def __post_init__(self) -> None:
