@@ -164,35 +164,6 @@ class TestServer:
         subprocess.run([sys.executable, '-c', code], env=environment, check=True, timeout=20)
         assert client.predict([0.0], [1.0]).success
 
-    def test_it_answers_eight_clients_at_once_each_its_own(
-        self, client: Client, model: GpModel
-    ) -> None:
-        clients = [client.node.create_client(Predict, 'push_gp/predict') for _ in range(8)]
-        for each in clients:
-            # both sides know each other once one answer has come
-            client.answer(each, Predict.Request())
-        offsets = np.linspace(-0.04, 0.04, 8)
-        answers: dict[int, Predict.Response] = {}
-        for _ in range(10):
-            # an answer may get lost, as everywhere; who got none asks again
-            futures = {
-                number: clients[number].call_async(
-                    Predict.Request(p_y=[offset] * 500, beta=[1.5] * 500, want_variance=True)
-                )
-                for number, offset in enumerate(offsets)
-                if number not in answers
-            }
-            client.happens(lambda each=futures: all(f.done() for f in each.values()), 2.0)
-            answers |= {number: f.result() for number, f in futures.items() if f.done()}
-            if len(answers) == len(clients):
-                break
-        assert len(answers) == len(clients)
-        for number, offset in enumerate(offsets):
-            mean, _ = model.evaluate(np.full(500, offset), np.full(500, 1.5))
-            assert np.array_equal(np.reshape(answers[number].mean, (500, 3)), mean)
-        for each in clients:
-            client.node.destroy_client(each)
-
     def test_it_takes_new_pushes_in_and_announces_the_new_model(
         self, client: Client, model: GpModel, more_pushes: PushSet
     ) -> None:
