@@ -90,7 +90,10 @@ def work(arguments: argparse.Namespace) -> None:
     ]
     text = table(rows)
     if arguments.html is not None:
-        arguments.html.write_text(f'<pre>{text}</pre>\n', encoding='utf-8')
+        # plotly takes a second to import: only who asks for a page waits for it
+        from push_core.page import write_page  # noqa: PLC0415
+
+        write_page(arguments.html, 'What each part is worth', text.splitlines(), ())
     if arguments.json:
         text = json.dumps({'rows': [row.as_json() for row in rows]}, indent=2) + '\n'
     sys.stdout.write(text)
