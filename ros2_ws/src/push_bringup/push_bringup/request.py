@@ -13,7 +13,7 @@ class Request:
         speed: of the object's centre [m/s].
         controller: gp or analytical.
         model: path of a model file, or 'analytical'.
-        profile: irb120 or ideal.
+        profile: irb120, ideal or harsh.
         perturb: none, normal or tangential.
         laps: rounds of a closed track.
         seed: of all that is drawn at random.
