@@ -35,17 +35,29 @@ class Interval:
         """Polynomials that give a kernel of this lengthscale to round-off."""
         return SPARE + int(PER_LENGTHSCALE * self.half_width / lengthscale)
 
+    def nodes(self, count: int) -> Array:
+        """(count,) places whose values fix as many polynomials."""
+        return np.asarray(self.centre + self.half_width * np.cos(_angles(count)))
+
+    @staticmethod
+    def transform(count: int) -> Array:
+        """(count, count) matrix that makes coefficients of the values at the nodes."""
+        transform = np.cos(np.arange(count)[:, None] * _angles(count)) * (2.0 / count)
+        transform[0] *= 0.5
+        return np.asarray(transform)
+
     def kernel(self, lengthscale: float, count: int) -> tuple[Array, Array]:
         """Coefficients (count, count) of the kernel, polynomials of one point by the other's.
 
         Returns:
             Those of exp(-(x - x')^2 / l^2), and of its derivative by the logarithm of l.
         """
-        angle = np.pi * (np.arange(count) + 0.5) / count
-        nodes = self.half_width * np.cos(angle)
-        transform = np.cos(np.arange(count)[:, None] * angle) * (2.0 / count)
-        transform[0] *= 0.5
+        nodes, transform = self.nodes(count), self.transform(count)
         exponent = ((nodes[:, None] - nodes) / lengthscale) ** 2
         values = np.exp(-exponent)
         slopes = 2.0 * exponent * values
         return transform @ values @ transform.T, transform @ slopes @ transform.T
+
+
+def _angles(count: int) -> Array:
+    return np.asarray(np.pi * (np.arange(count) + 0.5) / count)

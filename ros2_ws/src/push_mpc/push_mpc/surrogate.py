@@ -12,6 +12,7 @@ from push_core.frames import Array
 
 # Hermite basis on [0, 1]: rows are powers of t; columns value at 0, value at 1, slope at 0, at 1
 _HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=float)
+_EXPONENTS = np.array([1.0, 2.0, 3.0])
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,7 @@ class Table:
         self._cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
         self._axes = (self._low.tolist(), self._step.tolist(), self._cells.tolist())
         self._coefficients = self._fit(mean, jacobian)
+        self._blocks = self._coefficients.reshape(-1, 3, 16)
 
     def _fit(self, mean: Array, jacobian: Array) -> Array:
         """Coefficients (m - 1, k - 1, 3, 4, 4) of every cell in its unit coordinates."""
@@ -76,17 +78,14 @@ class Table:
 
         Outside the grid the derivative across its edge is 0.
         """
-        place = (np.stack([p_y, beta], axis=-1) - self._low) / self._step
-        inside = np.clip(place, 0.0, self._cells)
+        place = (np.column_stack((p_y, beta)) - self._low) / self._step
+        inside = np.minimum(np.maximum(place, 0.0), self._cells)
         cell = np.minimum(inside.astype(int), self._cells - 1)
         powers, slopes = _powers(inside - cell)
-        block = self._coefficients[cell[:, 0], cell[:, 1]]
-        slopes *= ((place == inside) / self._step)[:, None, :]
-        by_beta = block @ powers[:, None, :, 1, None]
-        mean = (powers[:, None, None, :, 0] @ by_beta)[..., 0, 0]
-        by_p = (slopes[:, None, None, :, 0] @ by_beta)[..., 0, 0]
-        by_b = powers[:, None, None, :, 0] @ (block @ slopes[:, None, :, 1, None])
-        return mean, np.stack([by_p, by_b[..., 0, 0]], axis=-1)
+        slopes *= ((place == inside) / self._step)[:, :, None]
+        blocks = self._blocks.take(cell[:, 0] * self._cells[1] + cell[:, 1], axis=0)
+        rates = blocks @ _products(powers, slopes)
+        return rates[..., 0], rates[..., 1:]
 
     def rate(self, p_y: float, beta: float) -> tuple[float, float, float]:
         """Displacement rates at one point, for the predictor's loop."""
@@ -99,9 +98,27 @@ class Table:
 
 
 def _powers(t: Array) -> tuple[Array, Array]:
-    """Powers 0..3 of t (n, 2) and their derivatives, each (n, 4, 2)."""
-    one, zero = np.ones_like(t), np.zeros_like(t)
-    return np.stack([one, t, t * t, t**3], axis=1), np.stack([zero, one, 2 * t, 3 * t * t], axis=1)
+    """Powers 0..3 of t (n, 2) and their derivatives, each (n, 2, 4)."""
+    powers, slopes = np.ones((*t.shape, 4)), np.zeros((*t.shape, 4))
+    powers[..., 1] = t
+    np.multiply(t, t, out=powers[..., 2])
+    np.multiply(powers[..., 2], t, out=powers[..., 3])
+    np.multiply(powers[..., :3], _EXPONENTS, out=slopes[..., 1:])
+    return powers, slopes
+
+
+def _products(powers: Array, slopes: Array) -> Array:
+    """(n, 16, 3) factors of a cell's coefficients in the value and in both derivatives.
+
+    Args:
+        powers: (n, 2, 4) of both inputs.
+        slopes: (n, 2, 4) their derivatives.
+    """
+    products = np.empty((len(powers), 3, 4, 4))
+    pairs = (powers, powers), (slopes, powers), (powers, slopes)
+    for kind, (across, around) in enumerate(pairs):
+        np.multiply(across[:, 0, :, None], around[:, 1, None], out=products[:, kind])
+    return np.swapaxes(products.reshape(-1, 3, 16), 1, 2)
 
 
 def _unit(value: float, low: float, step: float, cells: int) -> tuple[float, int]:
