@@ -85,6 +85,7 @@ def _frames(view: View) -> dict[str, Any]:
     index, _ = view.run.pusher.at(tracking.stamp[chosen])
     tip = view.run.pusher.values[index] * 1e3 if index.size else np.zeros((0, 2))
     pose = tracking.pose[chosen]
+    planned = view.run.horizons.at(tracking.stamp[chosen]) * 1e3
     return {
         'side': reference.side * 1e3,
         'tip_radius': reference.tip_radius * 1e3,
@@ -94,6 +95,9 @@ def _frames(view: View) -> dict[str, Any]:
         'theta': _rounded(pose[:, 2], 4),
         'tip_x': _rounded(tip[:, 0], 1),
         'tip_y': _rounded(tip[:, 1], 1),
+        'horizon_points': planned.shape[1],
+        'horizon_x': _rounded(planned[:, :, 0].ravel(), 1),
+        'horizon_y': _rounded(planned[:, :, 1].ravel(), 1),
     }
 
 

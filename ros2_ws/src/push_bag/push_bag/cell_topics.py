@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from push_node.qos import COMMAND, EVENT, LATCHED, POSE, SCENE, STATE
+from push_node.qos import COMMAND, EVENT, LATCHED, POSE, SCENE, STATE, TF
 from rclpy.qos import QoSProfile
 
 
@@ -30,10 +30,11 @@ CELL_TOPICS = (
     CellTopic('nominal_trajectory', 'push_msgs/msg/NominalTrajectory', LATCHED, core=True),
     CellTopic('controller_state', 'push_msgs/msg/ControllerState', STATE, core=True),
     CellTopic('model_info', 'push_msgs/msg/ModelInfo', LATCHED, core=True),
+    CellTopic('horizon', 'push_msgs/msg/Horizon', STATE),
     CellTopic('perturbation', 'push_msgs/msg/Perturbation', EVENT),
     CellTopic('scene', 'visualization_msgs/msg/MarkerArray', SCENE),
     CellTopic('/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', QoSProfile(depth=10)),
-    CellTopic('/tf', 'tf2_msgs/msg/TFMessage', QoSProfile(depth=100)),
+    CellTopic('/tf', 'tf2_msgs/msg/TFMessage', TF),
     CellTopic('/clock', 'rosgraph_msgs/msg/Clock', QoSProfile(depth=10)),
 )
 

@@ -50,7 +50,6 @@ function trail(run, frame) {
 
 function horizon(run, frame) {
   const width = run.horizon_points;
-  if (!width) return [[], []];
   return [run.horizon_x.slice(frame * width, (frame + 1) * width),
           run.horizon_y.slice(frame * width, (frame + 1) * width)];
 }

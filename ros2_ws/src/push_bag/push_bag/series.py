@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_msgs.msg import ControllerState
 
+from push_bag.horizons import Horizons
 from push_bag.traffic import Traffic
 
 Floats = NDArray[np.float64]
@@ -127,6 +128,7 @@ class RunSeries:
         reference: None where none was recorded.
         model: None where none was recorded.
         disturbances: in order.
+        horizons: what the controller planned.
     """
 
     facts: Mapping[str, str]
@@ -140,6 +142,7 @@ class RunSeries:
     reference: Reference | None
     model: Model | None
     disturbances: tuple[Disturbance, ...]
+    horizons: Horizons
 
     def state(self, name: str) -> Floats:
         """One column (n,) of the controller's ticks, by its name in STATE_COLUMNS."""

@@ -22,7 +22,9 @@ ARMED_TICKS = 20
 LEAD_TICKS = 11  # in TRACKING before the reference starts
 DONE_TICKS = 10
 FLUSH_TICKS = 25  # as the recorder does every 0.25 s
-CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name == 'perturbation'}
+EXTRA = ('perturbation', 'horizon')
+HORIZON = np.linspace(0.0, 0.35, 36)  # [s] ahead
+CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name in EXTRA}
 
 
 def on_circle(time):
@@ -115,6 +117,8 @@ class Recorder:
                 'pusher_velocity_cmd', tick, self.message('pusher_velocity_cmd', tick), delay
             )
         self.write('controller_state', tick, self.state(tick, time), 2_000_000)
+        if tick % 5 == 0:
+            self.write('horizon', tick, self.horizon(tick, time), 2_100_000)
         if tick % FLUSH_TICKS == 0:
             self.bag.flush()
         if synthetic.perturbed_at is not None and abs(time - synthetic.perturbed_at) < 1e-6:
@@ -141,6 +145,13 @@ class Recorder:
         state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
         state.solver_status, state.limited = 1, self.synthetic.limited(tick)
         return state
+
+    def horizon(self, tick, time):
+        horizon = self.message('horizon', tick)
+        path = np.array([self.synthetic.path(max(time, 0.0) + ahead) for ahead in HORIZON])
+        horizon.step = 0.01
+        horizon.x, horizon.y, horizon.theta = (column.copy() for column in path.T)
+        return horizon
 
     def reference(self):
         plan = self.message('nominal_trajectory', 0)

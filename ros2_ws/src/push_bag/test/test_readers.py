@@ -13,6 +13,7 @@ from push_bag.reader import BagReader
 from push_bag.run_reader import read_run
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
+from rosbags.typesys import Stores, get_typestore
 
 
 @pytest.fixture(scope='module')
@@ -92,6 +93,12 @@ def test_type_hashes_are_those_of_the_installed_ros(perfect):
     finally:
         node.destroy_node()
         rclpy.shutdown()
+
+
+def test_the_hash_of_tf_is_that_which_ros_publishes():
+    """Where ROS comes as wheels this workspace brings the type along."""
+    theirs = get_typestore(Stores.ROS2_JAZZY).hash_rihs01('tf2_msgs/msg/TFMessage')
+    assert type_hash('tf2_msgs/msg/TFMessage') == theirs
 
 
 def test_nested_types_of_other_packages_are_in_the_bag(tmp_path):

@@ -90,3 +90,31 @@ def test_the_animation_shows_where_the_object_was(perfect):
     at = np.interp(frames['time'], shown.tracking.reference_time, shown.tracking.pose[:, 0] * 1e3)
     np.testing.assert_allclose(frames['x'], at, atol=0.6)
     assert np.max(np.diff(frames['time'])) <= 0.05
+
+
+def test_the_animation_shows_what_was_planned(perfect, paths):
+    run = read_run(perfect)
+    (shown,) = views([(run, score_series(run))])
+    (frames,) = json.loads(animation_data([shown]))['runs']
+    width = frames['horizon_points']
+    for time, x, y in zip(
+        frames['time'],
+        np.reshape(frames['horizon_x'], (-1, width)),
+        np.reshape(frames['horizon_y'], (-1, width)),
+        strict=True,
+    ):
+        # the latest plan is at most 50 ms old
+        ahead = np.array([paths['circle'](time + 0.35 - age)[:2] for age in (0.0, 0.06)]) * 1e3
+        low, high = ahead.min(axis=0) - 0.2, ahead.max(axis=0) + 0.2
+        assert np.all((low <= [x[-1], y[-1]]) & ([x[-1], y[-1]] <= high))
+
+
+def test_an_old_plan_is_not_shown(record):
+    hesitant = read_run(record(missing={'horizon': range(60, 200)}))
+    shown = hesitant.horizons.at(hesitant.object.stamp)
+    last = hesitant.horizons.stamp[-1]
+    old = hesitant.object.stamp > last + 200_000_000
+    assert np.isnan(shown[old]).all()
+    assert old.any()
+    fresh = (hesitant.object.stamp >= hesitant.horizons.stamp[0]) & ~old
+    assert np.isfinite(shown[fresh]).all()

@@ -10,6 +10,7 @@ from push_gp.conversions import model_info_message
 from push_gp.model import ModelInfo
 from push_mpc import conversions as mpc
 from push_mpc.controller import Controller, Mode, Tick
+from push_mpc.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.node_settings import MpcSettings
 from push_msgs.msg import ControllerState
 from push_node.stamps import to_stamp
@@ -29,9 +30,11 @@ class InProcessRecord:
         self._controller = controller
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
+        steps = controller.settings.horizon_steps
+        self._horizon = HorizonMessage(steps, controller.horizon_step)
         self._sequence: dict[str, int] = {}
         for topic in CELL_TOPICS:
-            if topic.core or topic.name == 'perturbation':
+            if topic.core or topic.name in ('perturbation', 'horizon'):
                 writer.add_topic(f'/{topic.name}', topic.type_name, qos_text(topic.qos))
 
     def head(self, settings: MpcSettings, info: ModelInfo) -> None:
@@ -72,6 +75,11 @@ class InProcessRecord:
         self._state.stop_reason = self._controller.stop_reason
         self._state.model_id = self._controller.model_id
         self._write('controller_state', self._state)
+        self._write_horizon(tick, stamp)
+
+    def _write_horizon(self, tick: Tick, stamp: int) -> None:
+        if tick.planned is not None and self._sequence['controller_state'] % HORIZON_EVERY == 0:
+            self._write('horizon', self._horizon.of(tick.planned, stamp))
 
     def _write(self, topic: str, message: Any) -> None:
         now = nanoseconds(self._plant.time)

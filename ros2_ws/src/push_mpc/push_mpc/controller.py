@@ -15,6 +15,7 @@ from push_mpc.disturbance import Disturbance
 from push_mpc.dynamics import TravelMotion
 from push_mpc.force_steering import ForceSteering
 from push_mpc.nominal import Plan
+from push_mpc.planned_states import PlannedStates
 from push_mpc.predictor import Predictor
 from push_mpc.recontact import approach, departure, is_apart
 from push_mpc.settings import ControllerSettings
@@ -57,8 +58,8 @@ class Controller:
         self._disturbance = Disturbance(settings.disturbance_length, slider)
         self._steering = _STEERINGS[settings.controller](settings, slider)
         self._stride = horizon_stride(plan, settings)
-        self._steps = self._stride * np.arange(settings.horizon_steps)
-        self._window = self._steps.copy()
+        self._steps = self._stride * np.arange(settings.horizon_steps + 1)
+        self._samples = self._steps.copy()
         self._prepared = ('', -1)
         self._model: Model | None = None
         self._sent = _STILL
@@ -69,6 +70,11 @@ class Controller:
     def model_id(self) -> str:
         """Name of the model in use, empty without one."""
         return self._model.model_id if self._model else ''
+
+    @property
+    def horizon_step(self) -> float:
+        """Time between the states of the horizon [s]."""
+        return self._stride * self.plan.period
 
     @property
     def problems(self) -> tuple[Problem, ...]:
@@ -140,6 +146,7 @@ class Controller:
         tick = self._follow(object_pose, tip, exposure, now)
         if self.mode not in FOLLOWING:
             tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
+            tick.planned = None
         self._remember(tick.velocity, now)
         return tick
 
@@ -237,6 +244,7 @@ class Controller:
             solve_ms=1e3 * (clock.perf_counter() - started),
             iterations=move.iterations,
             solver_status=move.status,
+            planned=PlannedStates(model.plan, self._samples, move.states),
         )
 
     def _prepare(self, model: Model, sample: int) -> None:
@@ -244,8 +252,8 @@ class Controller:
         if self._prepared == (model.model_id, sample):
             return
         # the horizon stays at the plan's last sample
-        np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._window)
-        self._steering.prepare(model.programs, self._window)
+        np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._samples)
+        self._steering.prepare(model.programs, self._samples[:-1])
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:

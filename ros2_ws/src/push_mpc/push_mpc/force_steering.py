@@ -81,7 +81,7 @@ class ForceSteering:
         force = programs.plan.at(time)[1] + best.inputs[0]
         velocity = self._motion.tip_velocity(state[3], force)
         iterations = sum(solution.iterations for solution in solutions)
-        return Move(velocity, best.status, iterations, best.usable)
+        return Move(velocity, best.status, iterations, best.usable, best.states)
 
     def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
-from push_msgs.msg import ControllerState, NominalTrajectory
+from push_msgs.msg import ControllerState, Horizon, NominalTrajectory
 from push_node import qos
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
@@ -20,6 +20,7 @@ from std_srvs.srv import Trigger
 
 from push_mpc import conversions
 from push_mpc.controller import Controller, Mode, Tick
+from push_mpc.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.model_client import ModelClient
 from push_mpc.node_settings import mpc_settings
 from push_mpc.planning import planned
@@ -50,11 +51,13 @@ class MpcNode(Node):  # type: ignore[misc]
         self._scheduling = ''
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
+        self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
         self._model = ModelClient(self, self._settings.slider.side, self._controller.prepared)
         self._recorder = RecorderWatch(self)
         self._reporter = Reporter(self, 'control')
         self._commands = self.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
         self._states = self.create_publisher(ControllerState, 'controller_state', qos.STATE)
+        self._horizons = self.create_publisher(Horizon, 'horizon', qos.STATE)
         self._announce_plan()
         self._offer_services()
         self._start_timers()
@@ -95,6 +98,7 @@ class MpcNode(Node):  # type: ignore[misc]
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._tell_horizon(tick, stamp)
         self._guesses += self._is_guess(tick)
         self._controller.prepare_next()
 
@@ -117,6 +121,10 @@ class MpcNode(Node):  # type: ignore[misc]
         self._state.model_id = self._controller.model_id
         self._states.publish(self._state)
         self._tick_count += 1
+
+    def _tell_horizon(self, tick: Tick, stamp: int) -> None:
+        if tick.planned is not None and self._tick_count % HORIZON_EVERY == 0:
+            self._horizons.publish(self._horizon.of(tick.planned, stamp))
 
     def _take_model(self) -> None:
         ready = self._model.ready

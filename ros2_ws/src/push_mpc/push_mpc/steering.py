@@ -37,12 +37,14 @@ class Move:
         status: of the solver, 1 = solved.
         iterations: that it took, of all programs.
         usable: whether the velocity may be sent.
+        states: planned deviations of the states, see `Solution`.
     """
 
     velocity: Array
     status: int
     iterations: int
     usable: bool
+    states: Array
 
 
 class Steering(Protocol):

@@ -6,6 +6,8 @@ from enum import IntEnum
 
 from push_core.frames import Array
 
+from push_mpc.planned_states import PlannedStates
+
 
 class Mode(IntEnum):
     """What the controller is doing; the numbers are those of push_msgs/ControllerState."""
@@ -25,7 +27,7 @@ FOLLOWING = (Mode.TRACKING, Mode.RECONTACT)
 
 @dataclass
 class Tick:
-    """What one tick saw, planned and did; see push_msgs/ControllerState for the fields."""
+    """What one tick saw, planned and did; see push_msgs/ControllerState and Horizon."""
 
     mode: Mode
     velocity: Array
@@ -42,3 +44,4 @@ class Tick:
     iterations: int = 0
     solver_status: int = 0
     limited: int = 0
+    planned: PlannedStates | None = None

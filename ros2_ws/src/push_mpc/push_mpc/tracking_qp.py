@@ -40,12 +40,14 @@ class Solution:
 
     Attributes:
         inputs: deviations of the inputs from the nominal (N, m).
+        states: those of the states (N + 1, 4), in the solver's units; good until the next solve.
         cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
         iterations: that it took.
     """
 
     inputs: Array
+    states: Array
     cost: float
     status: int
     iterations: int
@@ -178,8 +180,9 @@ class TrackingQP:
         self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
         inputs = result.x[self._states :].reshape(self.steps, -1) * self._space.scale
+        states = result.x[: self._states].reshape(-1, NX)
         info = result.info
-        return Solution(inputs, float(info.obj_val), int(info.status_val), int(info.iter))
+        return Solution(inputs, states, float(info.obj_val), int(info.status_val), int(info.iter))
 
     @property
     def problem(self) -> Problem:

@@ -57,7 +57,9 @@ class VelocitySteering:
         """See `Steering.solve`."""
         solution = self.solvers[0].solve(deviation, opening, disturbance)
         velocity = programs.plan.at(time)[1] + solution.inputs[0]
-        return Move(velocity, solution.status, solution.iterations, solution.usable)
+        return Move(
+            velocity, solution.status, solution.iterations, solution.usable, solution.states
+        )
 
     def _limits(self, preview: Preview) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""

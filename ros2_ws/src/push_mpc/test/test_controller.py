@@ -85,7 +85,7 @@ def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
 
 
 def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
-    nothing = Move(np.full(2, np.nan), 3, 7, usable=False)
+    nothing = Move(np.full(2, np.nan), 3, 7, usable=False, states=np.empty((36, 4)))
     monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
     tick = tracking.tick()
     assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)

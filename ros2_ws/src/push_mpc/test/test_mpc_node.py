@@ -14,11 +14,12 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.motion_cone import MotionCone
 from push_core.slider import Slider
-from push_msgs.msg import ControllerState, ModelInfo, NominalTrajectory
+from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node import qos
 from push_node.ask import ask
 from push_node.spin import Spinner
+from push_node.stamps import to_nanoseconds
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -40,6 +41,7 @@ class Cell:
         self.states: list[ControllerState] = []
         self.commands: list[TwistStamped] = []
         self.plans: list[NominalTrajectory] = []
+        self.horizons: list[Horizon] = []
         node, slider = self.node, Slider()
         self._tip = slider.tip_position(np.zeros(3), 0.0)
         self._cone = MotionCone(slider)
@@ -56,6 +58,7 @@ class Cell:
         node.create_subscription(
             NominalTrajectory, 'nominal_trajectory', self.plans.append, qos.LATCHED
         )
+        node.create_subscription(Horizon, 'horizon', self.horizons.append, qos.STATE)
         node.create_service(Predict, 'push_gp/predict', self._predict)
         self._calls = {
             name: node.create_client(Trigger, f'push_mpc/{name}')
@@ -199,6 +202,17 @@ def test_it_answers_each_pose_and_is_still_until_it_has_seen_ten(cell, started) 
     answers = [command for command in cell.commands if command.header.stamp in stamps]
     assert answers
     assert all(is_zero(command) for command in answers)
+
+
+def test_it_tells_its_plan_on_one_tick_in_five(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.wait(lambda: len(cell.horizons) >= 5)
+    told = {to_nanoseconds(state.header.stamp): state.tick for state in cell.states}
+    stamps = [to_nanoseconds(horizon.header.stamp) for horizon in cell.horizons]
+    steps = np.diff([told[stamp] for stamp in stamps if stamp in told])
+    assert np.all(steps % 5 == 0)
+    assert {len(horizon.x) for horizon in cell.horizons} == {36}
 
 
 def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started) -> None:

@@ -15,4 +15,6 @@ LATCHED = QoSProfile(
 )
 STATE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 EVENT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+# as tf2_ros has it
+TF = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
 SCENE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)

@@ -9,11 +9,12 @@ from push_msgs.msg import Perturbation as PerturbationMessage
 from push_msgs.srv import Perturb, Reset
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
-from push_node.qos import COMMAND, EVENT, POSE, SCENE
+from push_node.qos import COMMAND, EVENT, POSE, SCENE, TF
 from push_node.realtime import settled
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
+from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from push_sim.conversions import (
@@ -29,6 +30,7 @@ from push_sim.perturbation import Kind, Perturbation
 from push_sim.plant import Observation, Plant
 from push_sim.realtime_pace import RealtimePace
 from push_sim.scene import scene
+from push_sim.transforms import Transforms
 
 _SCENE_PERIOD = 0.05
 _HEALTH_PERIOD = 1.0
@@ -69,6 +71,8 @@ class SimNode(Node):  # type: ignore[misc]
         self._pusher = self.create_publisher(PoseStamped, 'pusher_pose', POSE)
         self._perturbation = self.create_publisher(PerturbationMessage, 'perturbation', EVENT)
         self._scene = self.create_publisher(MarkerArray, 'scene', SCENE)
+        self._tf = self.create_publisher(TFMessage, '/tf', TF)
+        self._frames = Transforms(self.get_namespace())
         self._reporter = Reporter(self, 'plant')
 
     def _start(self) -> Observation:
@@ -81,6 +85,7 @@ class SimNode(Node):  # type: ignore[misc]
         # the tip first: who waits for the object's pose has both then
         self._pusher.publish(position_message(observation.tip_position, stamp))
         self._object.publish(pose_message(observation.object_pose, stamp))
+        self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))
         for disturbance in self._plant.take_disturbances():
             happened = to_stamp(self._pace.stamp(disturbance.time))
             self._perturbation.publish(perturbation_message(disturbance, happened))
