@@ -1,11 +1,14 @@
 """`push_bag info RUN`: what lies in a bag."""
 
 import argparse
+import shutil
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
+from push_core.errors import InputError
 
 from push_bag.reader import BagReader
 from push_bag.traffic import Traffic, lost_text
@@ -31,6 +34,26 @@ def bag_text(reader: BagReader) -> str:
     lines += [f'{name}: {value}' for name, value in sorted(reader.facts.items())]
     lines += [f'attached: {name}, {len(data)} B' for name, data in reader.attachments.items()]
     return '\n'.join(lines) + '\n'
+
+
+def extract(reader: BagReader, folder: Path) -> None:
+    """Writes the attachments of a bag that was read into a new folder.
+
+    Raises:
+        InputError: the folder exists, or cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True)
+    except FileExistsError:
+        raise InputError(f'{folder} exists; name a new folder with --extract') from None
+    except OSError as error:
+        raise InputError(f'cannot make {folder}: {error.strerror}') from error
+    try:
+        for name, data in reader.attachments.items():
+            write_atomically(folder / Path(name).name, data)
+    except InputError:
+        shutil.rmtree(folder)
+        raise
 
 
 def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
@@ -63,11 +86,20 @@ def _ending(reader: BagReader) -> str:
 def _parser() -> Parser:
     parser = Parser('Says what lies in a bag: topics, counts, rates, losses and facts.')
     parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    parser.add_argument(
+        '--extract',
+        type=Path,
+        metavar='FOLDER',
+        help='write what is attached (parameters, model, track) into a new folder',
+    )
     return parser
 
 
 def _work(arguments: argparse.Namespace) -> None:
-    sys.stdout.write(bag_text(BagReader(arguments.run)))
+    reader = BagReader(arguments.run)
+    sys.stdout.write(bag_text(reader))
+    if arguments.extract is not None:
+        extract(reader, arguments.extract)
 
 
 if __name__ == '__main__':

@@ -62,6 +62,11 @@ class Recomputed:
         )
         return np.asarray((recorded != computed).any(axis=1))
 
+    @property
+    def same(self) -> bool:
+        """Whether all commands were computed, and are the same bit for bit."""
+        return not (self.skipped or self.differs.any())
+
     def text(self) -> str:
         """Lines for a person."""
         differs, count = self.differs, self.stamp.size
@@ -69,7 +74,7 @@ class Recomputed:
         if differs.any():
             lines.append(self._difference_text())
         if self.skipped:
-            lines.append(f'{self.skipped} commands not computed: their poses are not in the bag')
+            lines.append(f'{self.skipped} commands not computed: the bag has no poses for them')
         return '\n'.join(lines) + '\n'
 
     def _difference_text(self) -> str:
@@ -78,9 +83,10 @@ class Recomputed:
         first = (self.stamp[int(np.argmax(self.differs))] - self.stamp[0]) * 1e-9
         at = (self.stamp[worst] - self.stamp[0]) * 1e-9
         rms = float(np.sqrt(np.mean(away**2)))
+        median, p99 = np.percentile(away, (50, 99)).tolist()
         return (
-            f'difference: rms {rms:.3g} mm/s, largest {away[worst]:.3g} mm/s at {at:.2f} s, '
-            f'first at {first:.2f} s'
+            f'difference: rms {rms:.3g}, median {median:.3g}, p99 {p99:.3g}, '
+            f'largest {away[worst]:.3g} mm/s at {at:.2f} s, first at {first:.2f} s'
         )
 
 

@@ -4,11 +4,14 @@ import argparse
 import sys
 from pathlib import Path
 
+import rclpy
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser
 from push_core.errors import InputError
+from rclpy.signals import SignalHandlerOptions
 
-from push_bag.recompute import Changes, recomputed
+from push_bag.interview import interviewed
+from push_bag.recompute import Changes, Recomputed, recomputed
 from push_bag.yaml_text import parameter_value
 
 
@@ -16,6 +19,9 @@ def add_recompute_arguments(parser: Parser) -> None:
     """Adds what `recompute` reads."""
     group = parser.add_argument_group('recomputing')
     group.add_argument('--recompute', action='store_true', help='compute the commands again')
+    group.add_argument(
+        '--ask', action='store_true', help='have a running mpc_node compute them, in lockstep'
+    )
     group.add_argument('--controller', choices=('gp', 'analytical'), default='')
     group.add_argument('--model', type=Path, metavar='FILE', help='another model file')
     group.add_argument(
@@ -41,13 +47,37 @@ def recompute(arguments: argparse.Namespace) -> int:
     params = dict(_param(text) for text in arguments.param)
     changes = Changes(arguments.controller, arguments.model, params)
     found = recomputed(arguments.run, changes)
-    if arguments.html is not None:
+    _tell(found, arguments.html)
+    return int(not changes.any and not found.same)
+
+
+def ask(arguments: argparse.Namespace) -> int:
+    """Compares recorded commands with those of a running controller.
+
+    Returns:
+        1 if a command differs, else 0.
+
+    Raises:
+        InputError: the bag lacks poses or ticks.
+        RunError: no controller answers.
+    """
+    # Ctrl-C stays Python's: it ends the wait for an answer
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        found = interviewed(arguments.run, rclpy.create_node('replay'))
+    finally:
+        rclpy.try_shutdown()
+    _tell(found, arguments.html)
+    return int(not found.same)
+
+
+def _tell(found: Recomputed, page: Path | None) -> None:
+    if page is not None:
         # plotly takes a second to import: only who asks for a figure waits for it
         from push_bag.command_figure import command_page  # noqa: PLC0415
 
-        write_atomically(arguments.html, command_page(found).encode())
+        write_atomically(page, command_page(found).encode())
     sys.stdout.write(found.text())
-    return int(not changes.any and bool(found.skipped or found.differs.any()))
 
 
 def _param(text: str) -> tuple[str, object]:

@@ -115,3 +115,12 @@ def test_what_is_latched_is_not_skipped_with_the_time_before_the_start(perfect):
     assert min(each.log_ns for each in records) >= begin
     assert [each.topic.name for each in records[:2]] == ['/nominal_trajectory', '/model_info']
     assert records[2].log_ns < begin + 10_000_000
+
+
+def test_without_a_controller_asking_is_one_line_and_status_1(perfect, monkeypatch, capfd):
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(DOMAIN))
+    monkeypatch.setattr('push_node.ask.READY_TIMEOUT', 0.1)
+    assert main([str(perfect), '--ask']) == 1
+    error = capfd.readouterr().err
+    assert error.endswith(': no mpc_node answers push_mpc/stop; see replay --help\n')
+    assert error.count('\n') == 1

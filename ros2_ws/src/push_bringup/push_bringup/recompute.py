@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 from push_bag.recompute import Changes, Recomputed
+from push_bag.recorded_ticks import RecordedRun, RecordedTick
 from push_core.errors import InputError
 from push_core.frames import Array
 from push_gp.analytical_model import ANALYTICAL
@@ -24,7 +25,6 @@ from tqdm import tqdm
 
 from push_bringup.cell_parameters import CellParameters, recorded_parameters
 from push_bringup.in_process import tabulated
-from push_bringup.recorded_ticks import RecordedRun, RecordedTick
 
 PARAMS_FILE = 'params.yaml'
 

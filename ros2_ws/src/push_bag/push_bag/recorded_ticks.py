@@ -1,10 +1,13 @@
 """The ticks of a recorded controller: what it knew at each of them, and what it sent."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from push_core.errors import InputError
+from push_core.frames import Array
+
 from push_bag.cdr_columns import Columns
 from push_bag.cell_topics import short_name
 from push_bag.conversions import (
@@ -16,10 +19,7 @@ from push_bag.conversions import (
     velocities,
 )
 from push_bag.reader import BagReader
-from push_bag.series import Stamped
 from push_bag.topic_table import TopicTable
-from push_core.errors import InputError
-from push_core.frames import Array
 
 TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
@@ -30,6 +30,7 @@ class RecordedTick:
 
     Attributes:
         stamp: of its command [ns].
+        published: when it was told of [ns].
         mode: of the controller afterwards.
         exposure: of the poses [s]; NaN where it answered none.
         now: when it was computed [s].
@@ -41,6 +42,7 @@ class RecordedTick:
     """
 
     stamp: int
+    published: int
     mode: int
     exposure: float
     now: float
@@ -78,7 +80,11 @@ class RecordedRun:
                 table.add(record)
         rows = {name: table.in_file_order() for name, table in tables.items()}
         self._states = rows.pop('controller_state')
-        self._by_stamp = {name: ByStamp(each) for name, each in rows.items()}
+        self._rows = rows
+        self._by_stamp = {
+            name: ByStamp(each.stamp.tolist(), each.published.tolist())
+            for name, each in rows.items()
+        }
         if not self._states.stamp.size:
             raise InputError(f'{path} holds no ticks of a controller')
 
@@ -93,10 +99,11 @@ class RecordedRun:
     def _tick(self, row: int) -> RecordedTick:
         stamp, told = int(self._states.stamp[row]), int(self._states.published[row])
         mode, exposure, now = self._states.values[row].tolist()
-        found = {name: table.before(stamp, told) for name, table in self._by_stamp.items()}
+        found = {name: self._values(name, stamp, told) for name in self._rows}
         model_id, stop_reason = self._names[row]
         return RecordedTick(
             stamp=stamp,
+            published=told,
             mode=int(mode),
             exposure=exposure,
             now=now,
@@ -107,24 +114,29 @@ class RecordedRun:
             velocity=found['pusher_velocity_cmd'],
         )
 
+    def _values(self, name: str, stamp: int, told: int) -> Array | None:
+        row = self._by_stamp[name].row(stamp, told)
+        return None if row is None else np.asarray(self._rows[name].values[row])
+
     def _tick_values(self, columns: Columns) -> Array:
         self._names += zip(columns['model_id'], columns['stop_reason'], strict=True)
         return np.column_stack([columns['mode'], columns['exposure'], columns['now']])
 
 
 class ByStamp:
-    """The messages of a topic by their stamp; a plant that starts anew uses stamps again."""
+    """Where the messages of a topic are, by stamp; a plant that starts anew uses stamps again."""
 
-    def __init__(self, rows: Stamped) -> None:
-        self._rows = rows
+    def __init__(self, stamps: Sequence[int], published: Sequence[int]) -> None:
+        """Takes stamps and publish times [ns] of all messages, in the order of the file."""
+        self._published = published
         self._places: dict[int, list[int]] = {}
-        for row, stamp in enumerate(rows.stamp.tolist()):
+        for row, stamp in enumerate(stamps):
             self._places.setdefault(stamp, []).append(row)
 
-    def before(self, stamp: int, time: int) -> Array | None:
-        """The last values with a stamp [ns] that were published by a time [ns]."""
+    def row(self, stamp: int, time: int) -> int | None:
+        """The last message with a stamp [ns] that was published by a time [ns]."""
         rows = self._places.get(stamp)
         if not rows:
             return None
-        published = [row for row in rows if self._rows.published[row] <= time]
-        return np.asarray(self._rows.values[(published or rows[:1])[-1]])
+        published = [row for row in rows if self._published[row] <= time]
+        return (published or rows[:1])[-1]
