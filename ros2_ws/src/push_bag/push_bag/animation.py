@@ -20,7 +20,7 @@ FRAMES_PER_SECOND = 25.0
 MOST_FRAMES = 4000
 HEIGHT = 620
 MARGIN = 80.0  # [mm] round the reference, so that the whole square is seen
-PARTS = ('trail', 'horizon', 'object', 'pusher')
+PARTS = ('trail', 'object', 'horizon', 'pusher')
 
 
 def animation_figure(views: Sequence[View]) -> go.Figure:
@@ -56,8 +56,8 @@ def _reference(view: View) -> go.Scatter:
 def _moving(view: View, alone: bool) -> list[go.Scatter]:
     styles: dict[str, dict[str, Any]] = {
         'trail': {'line': {'color': GREY, 'width': 1.5}},
-        'horizon': {'line': {'color': ORANGE, 'width': 4}},
         'object': {'line': {'color': view.colour, 'width': 2}, 'fill': 'toself'},
+        'horizon': {'line': {'color': ORANGE, 'width': 4}},
         'pusher': {'line': {'color': INK, 'width': 1.5}, 'fill': 'toself', 'fillcolor': INK},
     }
     return [

@@ -1,7 +1,8 @@
 """Serves the cell's messages to a browser over the Foxglove WebSocket protocol.
 
 Takes the place of a bag: a `Recording` writes into it what would go into a file. Messages of
-latched topics are kept and shown again to whoever subscribes later, as DDS does.
+latched topics are kept and shown again to whoever subscribes later, as DDS does. The planned
+horizon is shown a second time, as a marker on `horizon_line`.
 """
 
 from collections.abc import Mapping
@@ -11,6 +12,7 @@ import foxglove
 from foxglove.websocket import ServerListener
 from push_core.errors import RunError
 
+from push_bag.horizon_marker import HORIZON_TYPE, MARKER_TYPE, horizon_marker
 from push_bag.message_types import schema_text
 
 
@@ -30,6 +32,7 @@ class LiveServer(ServerListener):
         self._context = foxglove.Context()
         self._channels: dict[str, Any] = {}
         self._latched: dict[str, bytes] = {}
+        self._lines: dict[str, Any] = {}
         try:
             self._server = foxglove.start_server(
                 name='pushing cell',
@@ -57,11 +60,9 @@ class LiveServer(ServerListener):
         Raises:
             InputError: the type is not installed.
         """
-        text = schema_text(type_name).encode()
-        schema = foxglove.Schema(name=type_name, encoding='ros2msg', data=text)
-        self._channels[name] = foxglove.Channel(
-            name, schema=schema, message_encoding='cdr', context=self._context
-        )
+        self._channels[name] = self._channel(name, type_name)
+        if type_name == HORIZON_TYPE:
+            self._lines[name] = self._channel(f'{name}_line', MARKER_TYPE)
         if 'durability: transient_local' in qos_yaml:
             self._latched[name] = b''
 
@@ -72,6 +73,8 @@ class LiveServer(ServerListener):
         if name in self._latched:
             self._latched[name] = data
         self._channels[name].log(data, log_time=log_ns)
+        if name in self._lines:
+            self._lines[name].log(horizon_marker(data), log_time=log_ns)
 
     def flush(self) -> None:
         """Nothing waits."""
@@ -87,3 +90,8 @@ class LiveServer(ServerListener):
         """Shows what a latched topic said last."""
         if self._latched.get(channel.topic):
             self._channels[channel.topic].log(self._latched[channel.topic])
+
+    def _channel(self, name: str, type_name: str) -> Any:
+        text = schema_text(type_name).encode()
+        schema = foxglove.Schema(name=type_name, encoding='ros2msg', data=text)
+        return foxglove.Channel(name, schema=schema, message_encoding='cdr', context=self._context)

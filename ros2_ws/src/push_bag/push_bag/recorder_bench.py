@@ -68,6 +68,7 @@ def _load(publisher: Publisher, folder: Path, arguments: argparse.Namespace) -> 
     with RecorderProcess(folder, 'topics:=load') as recorder:
         publisher.wait()
         rate = at_rate(publisher.load, arguments.rate, arguments.seconds)
+        publisher.wait_until_heard()
         recorder.stop()
     seen = Traffic()
     for record in BagReader(folder).records(['/load']):

@@ -4,6 +4,7 @@ import signal
 import subprocess
 import sys
 import time
+from array import array
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,18 +12,33 @@ from types import TracebackType
 from typing import Any
 
 import rclpy
+from geometry_msgs.msg import TransformStamped
 from push_core.errors import RunError
+from push_msgs.msg import Horizon
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from std_msgs.msg import ByteMultiArray
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
 
 from push_bag.cell_topics import CELL_TOPICS
 from push_bag.message_types import message_class
 
 READY_TIMEOUT = 30.0  # [s]
+ARRIVAL_TIMEOUT = 5.0  # [s]
 TICKS_PER_SECOND = 100.0  # of the kernel's accounting
 LOAD = QoSProfile(depth=100)
-TICK_TOPICS = ('object_pose', 'pusher_pose', 'pusher_velocity_cmd', 'controller_state')
+TICK_TOPICS = ('object_pose', 'pusher_pose', 'pusher_velocity_cmd', 'controller_state', '/tf')
+SLOW_TOPICS = ('horizon', 'scene')
+SLOW_TICKS = 5
+HORIZON = array('d', range(36))
+# those whose size is not that of an empty message
+FILLED = {
+    'horizon': Horizon(x=HORIZON, y=HORIZON, theta=HORIZON),
+    'scene': MarkerArray(markers=[Marker(), Marker()]),
+    '/tf': TFMessage(transforms=[TransformStamped(), TransformStamped()]),
+}
 
 
 class RecorderProcess:
@@ -84,7 +100,7 @@ class Publisher:
                 message_class(topic.type_name), topic.name, topic.qos
             )
             for topic in CELL_TOPICS
-            if topic.core
+            if topic.core or topic.name in FILLED
         }
         self._outlets['load'] = node.create_publisher(
             ByteMultiArray, 'load', QoSProfile(depth=100)
@@ -105,14 +121,19 @@ class Publisher:
                 raise RunError('the recorder does not hear every topic')
             time.sleep(0.02)
 
-    def tick(self, _number: int) -> None:
+    def tick(self, number: int) -> None:
         """What a cell publishes in one tick."""
-        for name in TICK_TOPICS:
-            self.send(name, self._outlets[name].msg_type())
+        for name in TICK_TOPICS + (SLOW_TOPICS if number % SLOW_TICKS == 0 else ()):
+            self.send(name, FILLED.get(name) or self._outlets[name].msg_type())
 
     def load(self, _number: int) -> None:
         """One message of 1 KB."""
         self.send('load', self._payload)
+
+    def wait_until_heard(self) -> None:
+        """Waits until everything that was sent is lost or has come; else its end would be cut."""
+        for each in self._outlets.values():
+            each.wait_for_all_acked(Duration(seconds=ARRIVAL_TIMEOUT))
 
     def send(self, name: str, message: Any) -> None:
         """Publishes one message and counts it."""

@@ -55,7 +55,7 @@ function horizon(run, frame) {
 }
 
 // what moves, in the order of each run's traces
-const MOVING = [trail, horizon, outline, tip];
+const MOVING = [trail, outline, horizon, tip];
 
 function draw() {
   const x = [];

@@ -12,10 +12,11 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped
-from push_msgs.msg import ModelInfo
+from push_msgs.msg import Horizon, ModelInfo
 from push_node import qos
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
+from visualization_msgs.msg import Marker
 from websockets.sync.client import ClientConnection, connect
 
 pytestmark = pytest.mark.processes
@@ -84,6 +85,7 @@ def port() -> Iterator[int]:
 def test_a_browser_sees_poses_and_what_was_said_before_it_came(publisher: Node, port) -> None:
     models = publisher.create_publisher(ModelInfo, 'model_info', qos.LATCHED)
     poses = publisher.create_publisher(PoseStamped, 'object_pose', qos.POSE)
+    plans = publisher.create_publisher(Horizon, 'horizon', qos.STATE)
     models.publish(ModelInfo(model_id='early', points=7))
     with connect(f'ws://127.0.0.1:{port}', subprotocols=['foxglove.sdk.v1']) as socket:
         watcher = Watcher(socket)
@@ -105,3 +107,18 @@ def test_a_browser_sees_poses_and_what_was_said_before_it_came(publisher: Node, 
             poses.publish(moved)
             topic, data = watcher.message(patience=0.2) or ('', b'')
         assert deserialize_message(data, PoseStamped).pose.position.x == 0.125
+
+        # the horizon comes as a line that every viewer can draw
+        watcher.subscribe('/horizon_line')
+        planned, line = Horizon(x=[0.1, 0.2, 0.3], y=[0.0, 0.5, 1.0]), b''
+        planned.header.frame_id = 'world'
+        while topic != '/horizon_line':
+            plans.publish(planned)
+            topic, line = watcher.message(patience=0.2) or ('', b'')
+        marker = deserialize_message(line, Marker)
+        assert (marker.type, marker.header.frame_id) == (Marker.LINE_STRIP, 'world')
+        assert [(point.x, point.y) for point in marker.points] == [
+            (0.1, 0.0),
+            (0.2, 0.5),
+            (0.3, 1.0),
+        ]

@@ -52,13 +52,13 @@ def test_it_opens_without_a_word_on_the_console_and_draws_the_lap(page, complain
 
 
 def test_the_animation_plays_and_pauses(page) -> None:
-    before = page.evaluate('document.getElementById("animation").data.at(-2).x[0]')
+    before = page.evaluate('document.getElementById("animation").data.at(-3).x[0]')
     page.select_option('#pace', '0.25')
     page.click('#play')
     page.wait_for_function('cursor > 0.05')
     page.click('#play')
     stopped = cursor(page)
-    after = page.evaluate('document.getElementById("animation").data.at(-2).x[0]')
+    after = page.evaluate('document.getElementById("animation").data.at(-3).x[0]')
     assert before != after
     time.sleep(0.2)
     assert cursor(page) == stopped
@@ -67,7 +67,7 @@ def test_the_animation_plays_and_pauses(page) -> None:
 
 def test_the_animation_draws_the_planned_horizon(page) -> None:
     page.evaluate('moveTo(0.5)')
-    ahead = page.evaluate('document.getElementById("animation").data.at(-3).x')
+    ahead = page.evaluate('document.getElementById("animation").data.at(-2).x')
     now = page.evaluate('ANIMATION.runs[0].x[frameAt(ANIMATION.runs[0], 0.5)]')
     assert len(ahead) == 12
     assert ahead[0] - now == pytest.approx(0.0, abs=4.5)
