@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser
 from push_core.errors import InputError
 
@@ -33,9 +34,8 @@ def opened_store(arguments: argparse.Namespace) -> LapStore:
         InputError: it cannot be used, or a number is out of range.
     """
     check_positive('--jobs', arguments.jobs)
-    page = arguments.html
-    if page is not None and not page.parent.is_dir():
-        raise InputError(f'cannot write {page}: there is no folder {page.parent}')
+    if arguments.html is not None:
+        check_place(arguments.html)
     return LapStore(arguments.laps_file, arguments.fresh)
 
 

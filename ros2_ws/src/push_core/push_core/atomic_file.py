@@ -8,6 +8,18 @@ from pathlib import Path
 from push_core.errors import InputError
 
 
+def check_place(path: Path) -> None:
+    """Refuses a file that could not be written, before the work for it is done.
+
+    Raises:
+        InputError: its folder is missing, or it is a folder itself.
+    """
+    if path.is_dir():
+        raise InputError(f'cannot write {path}: it is a folder')
+    if not path.parent.is_dir():
+        raise InputError(f'cannot write {path}: there is no folder {path.parent}')
+
+
 def write_atomically(path: Path, content: bytes) -> None:
     """Writes a file beside its place and moves it there; a reader never sees half of it.
 

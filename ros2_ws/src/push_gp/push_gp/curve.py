@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.push_csv import read_pushes
@@ -51,6 +52,8 @@ def work(arguments: argparse.Namespace) -> None:
     """
     if arguments.seeds < 1:
         raise InputError(f'--seeds is {arguments.seeds}, must be at least 1')
+    if arguments.html:
+        check_place(arguments.html)
     pushes = read_pushes(arguments.data)
     places = _places(pushes, sizes_within(len(pushes), arguments.points), arguments.seeds)
     lines = list(_table(places))

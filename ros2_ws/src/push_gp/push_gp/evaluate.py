@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from push_core.accuracy import OUTPUTS, READABLE
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.frames import Array
 from push_core.long_push_csv import holds_long_pushes, read_long_pushes
@@ -40,6 +41,8 @@ def parser() -> Parser:
 
 def work(arguments: argparse.Namespace) -> None:
     """Evaluates and says what came out."""
+    if arguments.html:
+        check_place(arguments.html)
     model = model_named(arguments.model)
     told = (_told_long if holds_long_pushes(arguments.data) else _told)(model, arguments)
     sys.stdout.write(f'{told}\n')

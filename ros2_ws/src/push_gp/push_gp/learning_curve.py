@@ -65,7 +65,7 @@ def sizes_within(count: int, wanted: Sequence[int] = SIZES) -> list[int]:
     most = count - _held_out(count)
     fitting = [size for size in wanted if 1 <= size <= most]
     if not fitting:
-        raise InputError(f'{count} pushes leave {most} to train on: too few for {wanted[0]}')
+        raise InputError(f'cannot train on {wanted[0]}: {count} pushes allow 1 to {most} of them')
     return fitting
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from push_core.accuracy import OUTPUTS
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.push_csv import read_pushes
@@ -57,7 +58,7 @@ def parser() -> Parser:
 
 def work(arguments: argparse.Namespace) -> None:
     """Trains, saves and says what came out."""
-    _check_output(arguments.output)
+    check_place(arguments.output)
     pushes = read_pushes(arguments.data)
     rows = chosen_rows(pushes, arguments)
     model = _trained(pushes.take(rows), arguments.mean)
@@ -94,13 +95,6 @@ def _trained(pushes: PushSet, mean: str) -> GpModel:
         f'fitted in {seconds:.1f} s\n'
     )
     return model
-
-
-def _check_output(output: Path) -> None:
-    if output.is_dir():
-        raise InputError(f'cannot write {output}: it is a folder')
-    if not output.parent.is_dir():
-        raise InputError(f'cannot write {output}: there is no folder {output.parent}')
 
 
 if __name__ == '__main__':

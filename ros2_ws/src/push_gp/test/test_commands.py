@@ -158,7 +158,12 @@ def test_curve_says_how_the_error_falls_with_the_pushes(data: Path, capsys: Capt
 
 
 @pytest.mark.parametrize(
-    ('options', 'fault'), [(['--seeds', '0'], 'at least 1'), (['--points', '60'], 'too few')]
+    ('options', 'fault'),
+    [
+        (['--seeds', '0'], 'at least 1'),
+        (['--points', '60'], 'allow 1 to'),
+        (['--html', 'none/page.html'], 'there is no folder none'),
+    ],
 )
 def test_a_wrong_curve_command_is_one_line_and_status_2(
     options: list[str], fault: str, data: Path, capsys: Capture

@@ -6,14 +6,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.atomic_file import write_atomically
+from push_core.atomic_file import check_place, write_atomically
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
 
 from push_sim.calibration import calibration
 from push_sim.calibration_json import calibration_json
 from push_sim.calibration_table import calibration_table
-from push_sim.command_checks import check_folder, check_jobs, check_seed
+from push_sim.command_checks import check_jobs, check_seed
 from push_sim.measured_data import files_hash, read_measured_data
 from push_sim.parameter_file import parameter_file
 from push_sim.settings import PROFILES, profile
@@ -58,7 +58,7 @@ def work(arguments: argparse.Namespace) -> None:
     check_jobs(arguments.jobs)
     check_seed(arguments.seed)
     if arguments.output:
-        check_folder(arguments.output)
+        check_place(arguments.output)
     data, measured = read_measured_data(arguments.data), files_hash(arguments.data)
     with workers(arguments.jobs) as run_in:
         found = calibration(data, profile(arguments.profile), Slider(), run_in, arguments.seed)

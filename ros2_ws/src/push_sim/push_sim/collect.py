@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.frames import Array
 from push_core.push_csv import write_pushes
@@ -17,7 +18,7 @@ from push_core.slider import Slider
 from tqdm import tqdm
 
 from push_sim.collector import Collector
-from push_sim.command_checks import check_folder, check_jobs, check_range, check_seed
+from push_sim.command_checks import check_jobs, check_range, check_seed
 from push_sim.push_design import PushDesign
 from push_sim.push_sampling import SAMPLINGS, Aim
 from push_sim.settings import PROFILES, SimSettings, profile
@@ -135,7 +136,7 @@ def work(arguments: argparse.Namespace) -> None:
     check_range('--pushes', arguments.pushes, 1, 10**7)
     check_seed(arguments.seed)
     check_jobs(arguments.jobs)
-    check_folder(arguments.output)
+    check_place(arguments.output)
     pushes = collect(
         arguments.pushes,
         arguments.seed,

@@ -1,7 +1,5 @@
 """What the commands of the plant refuse before they begin."""
 
-from pathlib import Path
-
 from push_core.errors import InputError
 
 MOST_JOBS = 256
@@ -25,15 +23,3 @@ def check_jobs(jobs: int) -> None:
 def check_seed(seed: int) -> None:
     """Refuses a seed that no generator takes."""
     check_range('--seed', seed, 0, 2**62)
-
-
-def check_folder(output: Path) -> None:
-    """Refuses an output that could not be written, before the work is done.
-
-    Raises:
-        InputError: its folder is missing, or it is a folder itself.
-    """
-    if not output.parent.is_dir():
-        raise InputError(f'cannot write {output}: there is no folder {output.parent}')
-    if output.is_dir():
-        raise InputError(f'cannot write {output}: it is a folder')

@@ -6,10 +6,11 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
 
-from push_sim.command_checks import check_folder, check_jobs
+from push_sim.command_checks import check_jobs
 from push_sim.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
 from push_sim.settings import PROFILES, profile
 from push_sim.validation import validation
@@ -56,7 +57,7 @@ def work(arguments: argparse.Namespace) -> None:
     """
     check_jobs(arguments.jobs)
     if arguments.html:
-        check_folder(arguments.html)
+        check_place(arguments.html)
     data = read_measured_data(arguments.data)
     with workers(arguments.jobs) as run_in:
         found = validation(data, profile(arguments.profile), Slider(), run_in)
