@@ -25,7 +25,8 @@ VARIANTS: Mapping[str, Mapping[str, object]] = {
     'without model-error estimate': {'disturbance_length': 0.0},
     'without either': {'consistent_plan': False, 'disturbance_length': 0.0},
     'without delay prediction': {'delay_compensation': False},
-    'horizon of 0.35 s': {'horizon_step': 0.01},
+    '35 steps, the same length': {'horizon_steps': 35},
+    '35 steps, 0.35 s': {'horizon_steps': 35, 'horizon_step': 0.01},
     'preset paper': {'preset': 'paper'},
 }
 """What is off, and the parameters that switch it off."""

@@ -50,7 +50,7 @@ class ControllerSettings:
         choices=('gp', 'analytical'),
     )
     period: float = setting(0.01, 'time between two ticks', unit='s', low=0.001, high=0.1)
-    horizon_steps: int = setting(35, 'steps of the horizon', low=2, high=200)
+    horizon_steps: int = setting(20, 'steps of the horizon', low=2, high=200)
     horizon_length: float = setting(
         0.084, 'path that the horizon spans', unit='m', low=0.001, high=1.0
     )

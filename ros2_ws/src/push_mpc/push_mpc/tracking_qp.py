@@ -26,9 +26,11 @@ OSQP_SETTINGS = {
     'verbose': False,
     'eps_abs': 3e-4,
     'eps_rel': 3e-4,
+    'alpha': 1.3,
     'check_termination': 5,
     'max_iter': 200,
     'adaptive_rho_interval': 25,
+    'adaptive_rho_tolerance': 2.0,
     'scaling': 0,
     'polishing': True,
 }

@@ -140,7 +140,7 @@ def test_waiting_does_not_pile_up_commands(tracking) -> None:
     assert len(tracking.controller._predictor._now._queue) < 20
 
 
-@pytest.mark.parametrize(('speed', 'stride'), [(0.08, 3), (0.05, 5), (0.02, 12), (0.22, 1)])
+@pytest.mark.parametrize(('speed', 'stride'), [(0.08, 5), (0.05, 8), (0.02, 21), (0.22, 2)])
 def test_the_horizon_is_a_length_of_path_at_any_speed(speed, stride) -> None:
     slow = replace(SETTINGS, speed=speed)
     assert horizon_stride(planned(slow), slow) == stride
