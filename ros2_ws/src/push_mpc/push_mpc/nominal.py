@@ -17,7 +17,7 @@ from push_core.tracks import Track
 
 _LONGEST_STEP = 0.0003  # [m]
 _SETTLING_LENGTHS = 30.0
-_LARGEST_SIDE_SLIP = math.radians(45.0)
+_LARGEST_TURN = math.radians(45.0)  # between two samples; more is a corner
 
 
 class TooTightError(InputError):
@@ -69,17 +69,17 @@ def flat_plan(
         overrun: time [s] for which the plan goes on after its end.
 
     Raises:
-        TooTightError: the path is too tight for the square.
+        TooTightError: the path asks for a force outside the friction cone.
     """
     duration = laps * track.length / speed
     samples = math.ceil((duration + overrun) / period) + 1
     s = speed * period * np.arange(samples)
     x, y, heading = path(track, s)
-    _check_turns(track, s, heading, _slip_length(slider))
+    _check_turns(track, s, heading, slider)
     alpha = _side_slip(track, s, _slip_length(slider))
     omega = -speed * np.sin(alpha) / _slip_length(slider)
     v_x, v_y = speed * np.cos(alpha), speed * np.sin(alpha)
-    _check_side_slip(track, s, alpha, _slip_length(slider))
+    _check_friction(track, s, alpha, slider)
     state = np.stack([x, y, heading - alpha, np.zeros(samples)], axis=-1)
     return Plan(period, duration, state, np.stack([v_x, v_y + slider.p_x * omega], axis=-1))
 
@@ -144,23 +144,23 @@ def _step_back(alpha: float, curvature: Array, width: float, slip_length: float)
     return float(alpha - width * (k1 + 2.0 * k2 + 2.0 * k3 + k4) / 6.0)
 
 
-def _check_side_slip(track: Track, s: Array, alpha: Array, slip_length: float) -> None:
-    """Beyond this side-slip the face cannot be turned towards the path any more."""
+def _check_friction(track: Track, s: Array, alpha: Array, slider: Slider) -> None:
+    """At p_y = 0 the force has the direction of travel, which has to be in the friction cone."""
     worst = int(np.argmax(np.abs(alpha)))
-    if abs(alpha[worst]) > _LARGEST_SIDE_SLIP:
-        _refuse(track, s[worst], slip_length)
+    if math.tan(abs(alpha[worst])) > slider.friction_pusher:
+        _refuse(track, s[worst], slider)
 
 
-def _check_turns(track: Track, s: Array, heading: Array, slip_length: float) -> None:
-    """A cusp has no curvature that could be too large."""
+def _check_turns(track: Track, s: Array, heading: Array, slider: Slider) -> None:
+    """A corner has no curvature that could be too large."""
     turns = np.abs(np.diff(heading))
-    if turns.max() > _LARGEST_SIDE_SLIP:
-        _refuse(track, s[int(np.argmax(turns))], slip_length)
+    if turns.max() > _LARGEST_TURN:
+        _refuse(track, s[int(np.argmax(turns))], slider)
 
 
-def _refuse(track: Track, place: float, slip_length: float) -> None:
-    tightest = slip_length / math.sin(_LARGEST_SIDE_SLIP)
+def _refuse(track: Track, place: float, slider: Slider) -> None:
+    tightest = _slip_length(slider) / math.sin(math.atan(slider.friction_pusher))
     raise TooTightError(
-        f'track {track.name} turns too tightly near {place * 1e3:.0f} mm along it; '
-        f'this square can be pushed round a radius of {tightest * 1e3:.0f} mm'
+        f'track {track.name} turns too tightly near {place * 1e3:.0f} mm along it: pushed at '
+        f'the middle of its face this square goes round a radius of {tightest * 1e3:.0f} mm'
     )

@@ -136,3 +136,19 @@ def test_between_samples_the_plan_is_interpolated_and_beyond_its_ends_held(eight
     for time, sample in ((-1.0, 0), (1e4, -1)):
         assert np.array_equal(eight.at(time)[0], eight.state[sample])
         assert np.array_equal(eight.at(time)[1], eight.input[sample])
+
+
+@pytest.mark.parametrize(('share', 'pushable'), [(1.02, True), (0.98, False)])
+def test_the_tightest_circle_is_the_one_on_the_edge_of_the_friction_cone(
+    slider, share, pushable
+) -> None:
+    # c^2 / |p_x| over the sine of the cone's half angle
+    radius = share * slider.support_radius**2 / abs(slider.p_x) * math.hypot(
+        1.0, 1.0 / slider.friction_pusher
+    )
+    circle = ArcTrack('ring', [(2.0 * math.pi * radius, 1.0 / radius)], heading=0.0, closed=True)
+    if pushable:
+        flat_plan(circle, SPEED, slider, laps=1, period=0.01, overrun=0.5)
+        return
+    with pytest.raises(TooTightError, match='goes round a radius of 74 mm'):
+        flat_plan(circle, SPEED, slider, laps=1, period=0.01, overrun=0.5)
