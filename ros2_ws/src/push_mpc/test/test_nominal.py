@@ -143,8 +143,11 @@ def test_the_tightest_circle_is_the_one_on_the_edge_of_the_friction_cone(
     slider, share, pushable
 ) -> None:
     # c^2 / |p_x| over the sine of the cone's half angle
-    radius = share * slider.support_radius**2 / abs(slider.p_x) * math.hypot(
-        1.0, 1.0 / slider.friction_pusher
+    radius = (
+        share
+        * slider.support_radius**2
+        / abs(slider.p_x)
+        * math.hypot(1.0, 1.0 / slider.friction_pusher)
     )
     circle = ArcTrack('ring', [(2.0 * math.pi * radius, 1.0 / radius)], heading=0.0, closed=True)
     if pushable:
