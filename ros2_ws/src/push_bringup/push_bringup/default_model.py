@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from push_core.errors import InputError
+from push_gp.model_format import VERSION
 from push_gp.sealed_archive import read_sealed
 from push_sim.settings import profile
 
@@ -48,7 +49,7 @@ def _cache() -> Path:
 
 def _is_good(path: Path) -> bool:
     try:
-        read_sealed(path)
+        header, _ = read_sealed(path)
     except InputError:
         return False
-    return True
+    return header.get('version') == VERSION

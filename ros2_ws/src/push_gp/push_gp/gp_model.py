@@ -9,10 +9,9 @@ import numpy as np
 from push_core.frames import Array
 from push_core.push_set import PushSet
 
-from push_gp.analytical_model import AnalyticalModel
 from push_gp.folded_process import Process, conditioned
 from push_gp.hyperparameters import Hyperparameters
-from push_gp.mean_function import MeanFunction
+from push_gp.mean_function import ConeMean, MeanFunction
 from push_gp.model import ModelInfo
 from push_gp.posterior_mean import PosteriorMean
 from push_gp.thinning import kept_rows
@@ -142,8 +141,8 @@ class GpModel:
 
     def _hash(self) -> str:
         digest = hashlib.sha256(self.pushes.sha256().encode())
-        if isinstance(self.mean_function, AnalyticalModel):
-            digest.update(self.mean_function.info.model_hash.encode())
+        if isinstance(self.mean_function, ConeMean):
+            digest.update(self.mean_function.cone.info.model_hash.encode())
         for process in self.processes:
             hyperparameters = process.hyperparameters
             numbers = [
@@ -164,4 +163,4 @@ def residuals(pushes: PushSet, mean_function: MeanFunction) -> Array:
 
 def mean_function_name(mean_function: MeanFunction) -> str:
     """'zero' or 'analytical'."""
-    return 'analytical' if isinstance(mean_function, AnalyticalModel) else 'zero'
+    return 'analytical' if isinstance(mean_function, ConeMean) else 'zero'

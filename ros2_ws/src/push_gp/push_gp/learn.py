@@ -5,11 +5,10 @@ from collections.abc import Callable
 from push_core.accuracy import OUTPUTS
 from push_core.push_set import PushSet
 
-from push_gp.analytical_model import AnalyticalModel
 from push_gp.fit import fit
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel, residuals
-from push_gp.mean_function import MeanFunction, ZeroMean
+from push_gp.mean_function import ConeMean, MeanFunction, ZeroMean
 from push_gp.prior import OVER_CONE, OVER_ZERO, priors
 
 
@@ -27,7 +26,7 @@ def learned(
         RunError: no hyperparameters explain the pushes.
     """
     mean_function = _mean_function(pushes, mean)
-    beliefs = OVER_CONE if isinstance(mean_function, AnalyticalModel) else OVER_ZERO
+    beliefs = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
     found = []
     left = residuals(pushes, mean_function)
     for name, outputs, prior in zip(OUTPUTS, left, priors(beliefs, pushes.distance), strict=True):
@@ -37,4 +36,4 @@ def learned(
 
 
 def _mean_function(pushes: PushSet, mean: str) -> MeanFunction:
-    return fitted_cone(pushes) if mean == 'analytical' else ZeroMean()
+    return ConeMean(fitted_cone(pushes)) if mean == 'analytical' else ZeroMean()

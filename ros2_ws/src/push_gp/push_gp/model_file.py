@@ -14,19 +14,9 @@ from push_core.slider import Slider
 from push_gp.analytical_model import AnalyticalModel
 from push_gp.gp_model import GpModel
 from push_gp.hyperparameters import Hyperparameters
-from push_gp.mean_function import MeanFunction, ZeroMean
+from push_gp.mean_function import ConeMean, MeanFunction, ZeroMean
+from push_gp.model_format import CONVENTIONS, FORMAT, VERSION
 from push_gp.sealed_archive import read_sealed, write_sealed
-
-FORMAT = 'push_gp model'
-VERSION = 1
-CONVENTIONS = {
-    'units': 'metres and radians',
-    'frame': 'body frame at the start of the push, x along the inward normal of the pushed face',
-    'inputs': 'p_y: contact offset along the face; beta = atan2(v_n, v_t): push direction',
-    'outputs': 'dx, dy, dtheta: displacement of the centre and rotation by a push of distance_m',
-    'kernel': "signal_std^2 exp(-sum_j (x_j - x_j')^2 / lengthscale_j^2), noise_std^2 added",
-    'arrays': 'inputs (n, 2), displacement (n, 3), weights (3, n)',
-}
 
 
 def save_model(path: Path, model: GpModel) -> None:
@@ -84,8 +74,9 @@ def _header(model: GpModel) -> dict[str, Any]:
 
 
 def _mean_function_header(mean_function: MeanFunction) -> dict[str, Any]:
-    if isinstance(mean_function, AnalyticalModel):
-        return {'kind': 'analytical', 'slider': dataclasses.asdict(mean_function.slider)}
+    if isinstance(mean_function, ConeMean):
+        slider = dataclasses.asdict(mean_function.cone.slider)
+        return {'kind': 'analytical', 'slider': slider}
     return {'kind': 'zero'}
 
 
@@ -109,7 +100,7 @@ def _hyperparameters(values: dict[str, Any]) -> Hyperparameters:
 
 def _mean_function(header: dict[str, Any], distance: float) -> MeanFunction:
     if header['kind'] == 'analytical':
-        return AnalyticalModel(Slider(**header['slider']), distance)
+        return ConeMean(AnalyticalModel(Slider(**header['slider']), distance))
     if header['kind'] == 'zero':
         return ZeroMean()
     raise InputError(f'unknown mean function {header["kind"]!r}')

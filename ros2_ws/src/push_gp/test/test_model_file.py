@@ -14,6 +14,7 @@ from push_core.push_set import PushSet
 from push_gp.gp_model import GpModel
 from push_gp.learn import learned
 from push_gp.model_file import load_model, save_model
+from push_gp.model_format import VERSION
 from push_gp.sealed_archive import read_sealed, write_sealed
 
 
@@ -104,7 +105,7 @@ def other_points(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None
 
 
 def other_version(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
-    header['version'] = 2
+    header['version'] = VERSION + 1
 
 
 def other_format(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
@@ -140,7 +141,7 @@ def push_outside(_header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None
     [
         (without_weights, 'weights'),
         (other_points, 'do not hold 61 pushes'),
-        (other_version, 'format version 2'),
+        (other_version, f'format version {VERSION + 1}'),
         (other_format, 'no model file of push_gp'),
         (other_noise, 'does not match its model_sha256'),
         (negative_length, 'positive'),

@@ -9,7 +9,7 @@ from push_gp.analytical_model import AnalyticalModel
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel
 from push_gp.learn import learned
-from push_gp.mean_function import ZeroMean
+from push_gp.mean_function import ConeMean, ZeroMean
 from push_gp.model import PushModel
 
 Queries = tuple[np.ndarray, np.ndarray]
@@ -101,7 +101,7 @@ def test_whatever_changes_an_answer_changes_the_hash(
             model.extended(more_pushes),
             GpModel.conditioned(moved, ZeroMean(), hyperparameters),
             GpModel.conditioned(pushes, ZeroMean(), louder),
-            GpModel.conditioned(pushes, AnalyticalModel(), hyperparameters),
+            GpModel.conditioned(pushes, ConeMean(AnalyticalModel()), hyperparameters),
             AnalyticalModel(),
             AnalyticalModel(Slider(friction_pusher=0.2)),
             AnalyticalModel(distance=0.005),
@@ -120,3 +120,14 @@ def test_the_fitted_cone_finds_the_slider_that_made_the_pushes(pushes: PushSet) 
     slider = fitted_cone(pushes).slider
     assert slider.friction_pusher == pytest.approx(0.3, abs=0.03)
     assert slider.support_radius == pytest.approx(0.0348, abs=5e-4)
+
+
+def test_the_mean_over_a_cone_is_the_cone_without_its_edge() -> None:
+    cone = AnalyticalModel()
+    p_y, beta = np.full(600, 0.01), np.linspace(0.3, np.pi - 0.3, 600)
+    slope = ConeMean(cone).evaluate(p_y, beta)[1][:, :, 1]
+    sharp = cone.evaluate(p_y, beta)[1][:, :, 1]
+    jump, sharp_jump = (np.abs(np.diff(each, axis=0)).max() for each in (slope, sharp))
+    assert jump < 0.2 * sharp_jump
+    away = np.array([0.0]), np.array([0.5 * np.pi])
+    assert np.allclose(ConeMean(cone).evaluate(*away)[0], cone.evaluate(*away)[0], atol=1e-4)
