@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from push_core.accuracy import OUTPUTS
 from push_core.push_set import PushSet
+from threadpoolctl import threadpool_limits
 
 from push_gp.fit import fit
 from push_gp.fit_cone import fitted_cone
@@ -17,6 +18,9 @@ def learned(
 ) -> GpModel:
     """The most likely model of a push set; the same set gives the same model bit for bit.
 
+    One thread does it. Several would sum in another order, and gain little with matrices of a few
+    hundred rows; where other work keeps a core busy they would wait for each other.
+
     Args:
         pushes: the training set.
         mean: 'zero' as in the paper, or 'analytical': the motion cone, itself fitted.
@@ -25,6 +29,11 @@ def learned(
     Raises:
         RunError: no hyperparameters explain the pushes.
     """
+    with threadpool_limits(1, 'blas'):
+        return _learned(pushes, mean, progress)
+
+
+def _learned(pushes: PushSet, mean: str, progress: Callable[[str], object]) -> GpModel:
     mean_function = _mean_function(pushes, mean)
     beliefs = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
     found = []

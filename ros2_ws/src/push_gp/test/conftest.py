@@ -32,6 +32,11 @@ def pushes() -> PushSet:
 
 
 @pytest.fixture(scope='session')
+def many_pushes() -> PushSet:
+    return made_pushes(120, seed=5)
+
+
+@pytest.fixture(scope='session')
 def more_pushes() -> PushSet:
     return made_pushes(12, seed=2)
 

@@ -8,6 +8,7 @@ from push_gp.kernel import correlation, squared_differences
 from push_gp.learn import learned
 from push_gp.likelihood import MarginalLikelihood
 from push_gp.prior import OVER_ZERO, priors
+from threadpoolctl import threadpool_limits
 
 TRUE = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 PRIOR = priors(OVER_ZERO, 0.004)[0]
@@ -63,3 +64,11 @@ def test_repeated_pushes_are_no_trouble(pushes: PushSet) -> None:
 
 def test_the_same_pushes_give_the_same_model_bit_for_bit(pushes: PushSet) -> None:
     assert learned(pushes).info.model_hash == learned(pushes).info.model_hash
+
+
+def test_the_number_of_threads_changes_no_bit(many_pushes: PushSet) -> None:
+    hashes = set()
+    for threads in (1, 2):
+        with threadpool_limits(threads, 'blas'):
+            hashes.add(learned(many_pushes).info.model_hash)
+    assert len(hashes) == 1
