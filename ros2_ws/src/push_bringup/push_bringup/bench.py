@@ -13,6 +13,8 @@ BENCHES = {
     'ablation': ('push_bringup.bench_ablation', 'what each part of the controller is worth'),
     'model': ('push_bringup.bench_model', 'our Gaussian processes beside public libraries'),
     'timing': ('push_bringup.bench_timing', 'the quadratic programs of a lap by several solvers'),
+    'realtime': ('push_bringup.bench_realtime', "the paper's rows by the clock, and in process"),
+    'results': ('push_bringup.bench_results', 'all that concerns the controllers, into one file'),
 }
 
 

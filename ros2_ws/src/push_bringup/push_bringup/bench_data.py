@@ -27,11 +27,11 @@ from tqdm import tqdm
 
 from push_bringup.bench_options import add_lap_options, check_positive, opened_store
 from push_bringup.experiment import Experiment, Lap, LapJob
-from push_bringup.lap_pool import push_all
+from push_bringup.lap_pool import push_all, worker_pool
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 TRACK = Experiment('eight', 0.08)
-COLLECTED = 5000
+COLLECTED = 10_000
 EPILOG = """Example: bench data --points 10 50 200 --draws 10 --html data.html
 Draw k takes its pushes at random with seed k, and is part of every larger draw of that seed.
 Exit status: 0 done, also where laps were not completed, 2 the command was wrong.
@@ -122,7 +122,7 @@ def work(arguments: argparse.Namespace) -> None:
     store = opened_store(arguments)
     pushes = _pushes(arguments)
     choices = list(_choices(arguments, len(pushes)))
-    models = _trained(pushes, choices, arguments.models)
+    models = _trained(pushes, choices, arguments)
     jobs = [LapJob(TRACK, 'gp', str(model), arguments.profile, 0) for model in models]
     jobs.append(LapJob(TRACK, 'analytical', ANALYTICAL, arguments.profile, 0))
     *laps, analytical = push_all(jobs, store, arguments.jobs)
@@ -155,17 +155,28 @@ def _choices(arguments: argparse.Namespace, available: int) -> Iterator[Choice]:
                 yield Choice(points, mean, 'random', draw)
 
 
-def _trained(pushes: PushSet, choices: Sequence[Choice], folder: Path) -> list[Path]:
+def _trained(
+    pushes: PushSet, choices: Sequence[Choice], arguments: argparse.Namespace
+) -> list[Path]:
     """The model files of the choices; those that are there already are taken as they are."""
-    folder = folder / pushes.sha256()[:12]
+    folder = arguments.models / pushes.sha256()[:12]
     folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for choice in tqdm(choices, 'training', unit=' models', disable=None):
-        name = f'{choice.choice}_{choice.points}_{choice.mean}_{choice.draw}.npz'
-        files.append(folder / name)
-        if not files[-1].is_file():
-            save_model(files[-1], learned(pushes.take(chosen_rows(pushes, choice)), choice.mean))
+    files = [folder / f'{c.choice}_{c.points}_{c.mean}_{c.draw}.npz' for c in choices]
+    work = [
+        (file, pushes.take(chosen_rows(pushes, choice)), choice.mean)
+        for file, choice in zip(files, choices, strict=True)
+        if not file.is_file()
+    ]
+    if work:
+        with worker_pool(arguments.jobs) as pool:
+            done = pool.imap_unordered(_train, work)
+            list(tqdm(done, 'training', len(work), unit=' models', disable=None))
     return files
+
+
+def _train(work: tuple[Path, PushSet, str]) -> None:
+    file, pushes, mean = work
+    save_model(file, learned(pushes, mean))
 
 
 def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:

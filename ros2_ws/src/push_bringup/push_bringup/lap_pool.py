@@ -11,6 +11,7 @@ import os
 import signal
 from collections.abc import Sequence
 from dataclasses import asdict
+from multiprocessing.pool import Pool
 from pathlib import Path
 
 from push_core.errors import InputError
@@ -85,12 +86,16 @@ def _push_missing(left: Sequence[LapJob], total: int, store: LapStore, processes
         return
     with tqdm(total=total, desc='pushing', unit=' laps', disable=None) as bar:
         bar.update(total - len(left))
-        context = multiprocessing.get_context('spawn')
-        # Ctrl-C reaches all processes; this one ends the others
-        with context.Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as pool:
+        with worker_pool(processes) as pool:
             for number, lap in pool.imap_unordered(_push, list(enumerate(left))):
                 store.add(left[number], lap)
                 bar.update()
+
+
+def worker_pool(processes: int) -> Pool:
+    """Processes that share work; Ctrl-C, which reaches all, is left to this one."""
+    context = multiprocessing.get_context('spawn')
+    return context.Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN))
 
 
 def cores() -> int:

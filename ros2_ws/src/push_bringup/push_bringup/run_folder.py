@@ -4,9 +4,7 @@ import json
 import os
 import platform
 import shutil
-import subprocess
 from datetime import datetime, timezone
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
@@ -16,11 +14,11 @@ from push_gp.sealed_archive import read_sealed
 from push_mpc.nominal import Plan
 
 from push_bringup.cell_parameters import CellParameters
+from push_bringup.machine import git_revision, processor, versions
 from push_bringup.request import Request
 
 PLAN_FILE = 'nominal_trajectory.csv'
 PLAN_COLUMNS = 't_s,x_m,y_m,theta_rad,p_y_m,v_n_m_s,v_t_m_s'
-_RECORDED_VERSIONS = ('numpy', 'scipy', 'osqp', 'pybullet', 'mcap', 'rclpy')
 
 
 def new_run_folder(request: Request, now: datetime) -> Path:
@@ -68,7 +66,6 @@ def keep_logs(inputs: Path, folder: Path) -> None:
 
 def facts(request: Request) -> dict[str, str]:
     """What is needed to repeat the run, beside parameters and model file."""
-    versions = {name: _version(name) for name in _RECORDED_VERSIONS}
     return {
         'track': request.track,
         'speed': f'{request.speed:g}',
@@ -79,10 +76,10 @@ def facts(request: Request) -> dict[str, str]:
         'seed': str(request.seed),
         'mode': request.mode,
         'started': datetime.now(timezone.utc).isoformat(timespec='seconds'),
-        'machine': f'{platform.machine()}, {os.cpu_count()} cores, {platform.platform()}',
+        'machine': f'{processor()}, {platform.platform()}',
         'python': platform.python_version(),
-        'versions': json.dumps(versions),
-        'git_revision': _git_revision(),
+        'versions': json.dumps(versions()),
+        'git_revision': git_revision(),
         **_model_facts(request.model),
     }
 
@@ -96,26 +93,3 @@ def _model_facts(model: str) -> dict[str, str]:
         'model_hash': str(header.get('model_sha256', '')),
         'training_set_hash': str(header.get('training_set_sha256', '')),
     }
-
-
-def _version(name: str) -> str:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return 'unknown'
-
-
-def _git_revision() -> str:
-    command = [
-        'git',
-        '-C',
-        str(Path(__file__).resolve().parent),
-        'describe',
-        '--always',
-        '--dirty',
-    ]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=5, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return 'unknown'
-    return done.stdout.strip() or 'unknown'
