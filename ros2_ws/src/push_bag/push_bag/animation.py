@@ -13,6 +13,7 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from push_bag.figure_style import GREY, INK, ORANGE, styled, thinned
+from push_bag.horizons import Horizons
 from push_bag.series import Floats
 from push_bag.view import View
 
@@ -85,7 +86,7 @@ def _frames(view: View) -> dict[str, Any]:
     index, _ = view.run.pusher.at(tracking.stamp[chosen])
     tip = view.run.pusher.values[index] * 1e3 if index.size else np.zeros((0, 2))
     pose = tracking.pose[chosen]
-    planned = view.run.horizons.at(tracking.stamp[chosen]) * 1e3
+    planned = Horizons.of(view.run.horizons).at(tracking.stamp[chosen]) * 1e3
     return {
         'side': reference.side * 1e3,
         'tip_radius': reference.tip_radius * 1e3,

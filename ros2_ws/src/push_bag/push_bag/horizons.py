@@ -1,17 +1,21 @@
-"""Where the controller planned to push the object, for the report's animation."""
+"""Where the controller planned to push the object, for the report's animation.
 
-from collections.abc import Mapping
+A score needs none of it, so that horizons stay as they lie in the bag until somebody draws them.
+"""
+
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from push_core.errors import InputError
+from push_node.stamps import to_nanoseconds
+
+from push_bag.reader import Record
 
 POINTS = 12  # of each horizon; it is a smooth line
 LONGEST_AGE_NS = 200_000_000  # an older one is no plan any more
-
-Floats = NDArray[np.float64]
-Nanoseconds = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -20,25 +24,26 @@ class Horizons:
 
     Attributes:
         stamp: of the tick that planned each (m,) [ns], strictly increasing.
-        points: of the object's centre (m, k, 2) [m].
+        points: of the object's centre (m, POINTS, 2) [m].
     """
 
-    stamp: Nanoseconds
-    points: Floats
+    stamp: NDArray[np.int64]
+    points: NDArray[np.float64]
 
     @classmethod
-    def of(cls, paths: Mapping[int, Floats]) -> 'Horizons':
-        """Orders them.
+    def of(cls, records: Iterable[Record]) -> 'Horizons':
+        """Decodes messages; of those that share a stamp the last one counts.
 
-        Args:
-            paths: points (POINTS, 2) [m] by stamp [ns].
+        Raises:
+            InputError: one is not a Horizon.
         """
-        stamps = sorted(paths)
-        points = np.array([paths[stamp] for stamp in stamps], np.float64)
+        messages = {to_nanoseconds(each.header.stamp): each for each in map(_message, records)}
+        stamps = sorted(stamp for stamp, message in messages.items() if len(message.x))
+        points = np.array([_points(messages[stamp]) for stamp in stamps], np.float64)
         return cls(np.array(stamps, np.int64), points.reshape(-1, POINTS, 2))
 
-    def at(self, stamps: Nanoseconds) -> Floats:
-        """Points (n, k, 2) [m] of the last plans at some stamps (n,); NaN without one."""
+    def at(self, stamps: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Points (n, POINTS, 2) [m] of the last plans at stamps (n,); NaN without one."""
         found = np.full((stamps.size, POINTS, 2), np.nan)
         if self.stamp.size:
             index = np.searchsorted(self.stamp, stamps, side='right') - 1
@@ -48,10 +53,13 @@ class Horizons:
         return found
 
 
-def path(message: Any) -> Floats | None:
-    """POINTS of a Horizon's (POINTS, 2) [m]; None where it has none."""
-    count = min(len(message.x), len(message.y))
-    if not count:
-        return None
-    chosen = np.linspace(0, count - 1, POINTS).round().astype(np.intp)
+def _message(record: Record) -> Any:
+    message = record.message()
+    if len(message.x) != len(message.y):
+        raise InputError(f'a message on {record.topic.name} has more x than y, or less')
+    return message
+
+
+def _points(message: Any) -> NDArray[np.float64]:
+    chosen = np.linspace(0, len(message.x) - 1, POINTS).round().astype(np.intp)
     return np.column_stack([np.asarray(each)[chosen] for each in (message.x, message.y)])

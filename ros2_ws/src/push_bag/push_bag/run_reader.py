@@ -13,14 +13,12 @@ from push_bag.conversions import (
     TWIST_FIELDS,
     disturbance,
     model,
-    nanoseconds,
     planar_poses,
     positions,
     reference,
     ticks,
     velocities,
 )
-from push_bag.horizons import Horizons, path
 from push_bag.reader import BagReader, Record
 from push_bag.series import STATE_COLUMNS, Disturbance, Floats, Model, Reference, RunSeries
 from push_bag.topic_table import TopicTable
@@ -61,13 +59,13 @@ class _Rows:
         self._reference: Reference | None = None
         self._model: Model | None = None
         self._disturbances: list[Disturbance] = []
-        self._horizons: dict[int, Floats] = {}
+        self._horizons: list[Record] = []
         self._readers: Mapping[str, Callable[[Record], None]] = {
             **{name: table.add for name, table in self._tables.items()},
             'nominal_trajectory': self._set_reference,
             'model_info': self._set_model,
             'perturbation': self._add_disturbance,
-            'horizon': self._add_horizon,
+            'horizon': self._horizons.append,
         }
 
     def add(self, record: Record) -> None:
@@ -101,7 +99,7 @@ class _Rows:
             reference=self._reference,
             model=self._model,
             disturbances=tuple(self._disturbances),
-            horizons=Horizons.of(self._horizons),
+            horizons=tuple(self._horizons),
         )
 
     def _new_topic(self, name: str) -> tuple[Traffic, Callable[[Record], None] | None]:
@@ -121,9 +119,3 @@ class _Rows:
 
     def _add_disturbance(self, record: Record) -> None:
         self._disturbances.append(disturbance(record.message()))
-
-    def _add_horizon(self, record: Record) -> None:
-        message = record.message()
-        points = path(message)
-        if points is not None:
-            self._horizons[nanoseconds(message)] = points

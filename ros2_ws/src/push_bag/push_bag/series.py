@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_msgs.msg import ControllerState
 
-from push_bag.horizons import Horizons
+from push_bag.reader import Record
 from push_bag.traffic import Traffic
 
 Floats = NDArray[np.float64]
@@ -128,7 +128,7 @@ class RunSeries:
         reference: None where none was recorded.
         model: None where none was recorded.
         disturbances: in order.
-        horizons: what the controller planned.
+        horizons: what the controller planned, as it lies in the bag; see `Horizons`.
     """
 
     facts: Mapping[str, str]
@@ -142,7 +142,7 @@ class RunSeries:
     reference: Reference | None
     model: Model | None
     disturbances: tuple[Disturbance, ...]
-    horizons: Horizons
+    horizons: tuple[Record, ...]
 
     def state(self, name: str) -> Floats:
         """One column (n,) of the controller's ticks, by its name in STATE_COLUMNS."""

@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 from push_bag.animation import animation_data
+from push_bag.horizons import Horizons
 from push_bag.report import REPORT_FILE, report_html, write_results
 from push_bag.run_reader import read_run
 from push_bag.score import score_series
@@ -111,10 +112,11 @@ def test_the_animation_shows_what_was_planned(perfect, paths):
 
 def test_an_old_plan_is_not_shown(record):
     hesitant = read_run(record(missing={'horizon': range(60, 200)}))
-    shown = hesitant.horizons.at(hesitant.object.stamp)
-    last = hesitant.horizons.stamp[-1]
+    horizons = Horizons.of(hesitant.horizons)
+    shown = horizons.at(hesitant.object.stamp)
+    last = horizons.stamp[-1]
     old = hesitant.object.stamp > last + 200_000_000
     assert np.isnan(shown[old]).all()
     assert old.any()
-    fresh = (hesitant.object.stamp >= hesitant.horizons.stamp[0]) & ~old
+    fresh = (hesitant.object.stamp >= horizons.stamp[0]) & ~old
     assert np.isfinite(shown[fresh]).all()
