@@ -93,9 +93,12 @@ class Shadow(Controller):
 
     def _take_model(self, recorded_id: str) -> None:
         if self._known_as not in ('', recorded_id):
+            happened = (
+                'its model changed (add_pushes) to' if self._recorded_id else 'it used model'
+            )
             raise InputError(
-                f'the run used model {recorded_id}, the bag holds {self._known_as}; '
-                'name a model file with --model'
+                f'cannot compute this run again: {happened} {recorded_id}, '
+                f'but the bag holds {self._known_as}; name a model file with --model'
             )
         self._recorded_id = recorded_id
         self.use(self._ready)

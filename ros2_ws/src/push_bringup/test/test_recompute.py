@@ -15,6 +15,7 @@ from push_core.errors import InputError
 from push_gp.model_source import model_named
 from push_mpc.controller import Mode, Tick
 from push_node.stamps import to_seconds
+from rclpy.serialization import serialize_message
 
 TICKS = 150
 
@@ -132,5 +133,27 @@ def test_another_model_than_that_of_the_run_is_refused(eventful, model_file, tmp
     text = reader.attachments['params.yaml'].decode()
     other = text.replace(str(model_file), 'analytical').encode()
     bag = without(eventful, tmp_path / 'other', **{'params.yaml': other})
-    with pytest.raises(InputError, match='name a model file with --model'):
+    with pytest.raises(InputError, match=r'it used model \w{12}, but the bag holds \w{12}; name'):
         recomputed(bag, Changes())
+
+
+def test_a_run_whose_model_grew_is_refused_by_the_name_of_what_is_missing(
+    eventful, tmp_path, capsys
+):
+    """What a model became by `add_pushes` is not in the bag."""
+    reader, grown = BagReader(eventful), tmp_path / 'grown'
+    records = list(reader.records())
+    with BagWriter(grown, reader.facts, reader.attachments) as writer:
+        for topic in reader.topics.values():
+            writer.add_topic(topic.name, topic.type_name, topic.qos)
+        for number, each in enumerate(records):
+            data = each.data
+            if each.topic.name == '/controller_state' and number > len(records) // 2:
+                state = each.message()
+                state.model_id = 'grown0000000'
+                data = serialize_message(state)
+            writer.write(each.topic.name, data, *each[2:])
+    assert replay([str(grown), '--recompute']) == 2
+    error = capsys.readouterr().err
+    assert 'changed (add_pushes) to grown0000000, but the bag holds' in error
+    assert error.count('\n') == 1
