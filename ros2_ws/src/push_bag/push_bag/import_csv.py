@@ -14,9 +14,9 @@ from pathlib import Path
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
 
-from push_bag.bag_writer import BagWriter
 from push_bag.robot_run import read_robot_run
 from push_bag.robot_run_messages import messages, topics
+from push_bag.whole_bag import whole_bag
 
 EPILOG = """
 Columns: t_s, slider_x_m, slider_y_m, slider_theta_rad, pusher_cmd_x_m, pusher_cmd_y_m, pusher_x_m,
@@ -47,7 +47,7 @@ def import_run(path: Path, folder: Path, slider: Slider) -> int:
     """
     run = read_robot_run(path)
     facts = {'mode': 'robot', 'profile': 'robot', 'imported_from': path.name}
-    with BagWriter(folder, facts, {}) as writer:
+    with whole_bag(folder, facts, {}) as writer:
         for topic in topics():
             writer.add_topic(*topic)
         numbers = dict.fromkeys(writer.counts, 0)

@@ -119,7 +119,8 @@ class BagReader:
                 raise InputError(f'{self.path} ends before its first message') from None
         except DamagedError as error:
             raise InputError(
-                f'{self.path} is no bag or is damaged: {error}; `push_bag recover` saves the rest'
+                f'{self.path} is no bag or is damaged: {error}; '
+                '`push_bag recover` saves what is whole'
             ) from None
 
     def _messages(self, chunk: bytes) -> Iterator[RawMessage]:
@@ -143,7 +144,9 @@ def bag_file(path: Path) -> Path:
         return path
     if not path.is_dir():
         raise InputError(f'{path} does not exist; name a run folder or an MCAP file')
-    bags = sorted(path.glob('*.mcap'))
-    if len(bags) != 1:
+    bags = sorted(each for each in path.iterdir() if each.suffix == '.mcap')
+    if not bags:
+        raise InputError(f'{path} holds no MCAP file; name a run folder or an MCAP file')
+    if len(bags) > 1:
         raise InputError(f'{path} holds {len(bags)} MCAP files; name the one to read')
     return bags[0]

@@ -21,6 +21,7 @@ from push_bag.reader import bag_file
 from push_bag.recovered import Recovered
 from push_bag.salvage import Damage, WholeChunk, whole_parts
 from push_bag.topic import Topic
+from push_bag.whole_bag import whole_bag
 
 EPILOG = """
 OUT becomes a run folder with one finished bag: every whole chunk of BROKEN, facts and attachments.
@@ -52,7 +53,7 @@ def recover(broken: Path, folder: Path) -> Recovered:
         contents = _contents(file)
         if not contents.topics:
             raise InputError(f'{path} holds nothing that could be recovered')
-        with BagWriter(folder, contents.facts, contents.attachments) as writer:
+        with whole_bag(folder, contents.facts, contents.attachments) as writer:
             return _copied(file, contents, writer)
 
 

@@ -79,6 +79,8 @@ def _work(arguments: argparse.Namespace) -> int:
         if getattr(arguments, name) < 0:
             raise InputError(f'--{name} must not be below 0, not {getattr(arguments, name):g}')
     found = survey(arguments.run, arguments.topics)
+    if arguments.start > found.seconds:
+        raise InputError(f'--start {arguments.start:g} is after the end at {found.seconds:.2f} s')
     # Ctrl-C stays Python's: it ends the wait for the next message
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:

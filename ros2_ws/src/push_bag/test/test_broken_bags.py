@@ -43,7 +43,7 @@ def test_a_missing_bag_and_an_empty_folder_are_one_line(tmp_path, capsys):
     assert info.main([str(tmp_path / 'none')]) == 2
     assert 'does not exist' in capsys.readouterr().err
     assert info.main([str(tmp_path)]) == 2
-    assert 'holds 0 MCAP files' in capsys.readouterr().err
+    assert 'holds no MCAP file' in capsys.readouterr().err
 
 
 def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, capsys):

@@ -8,9 +8,12 @@ import rclpy
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from push_bag.bag_writer import BagWriter
+from push_bag.cell_topics import CELL_TOPICS
 from push_bag.message_types import message_class, type_hash
+from push_bag.qos_text import qos_text
 from push_bag.reader import BagReader
 from push_bag.run_reader import read_run
+from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
 from rosbags.typesys import Stores, get_typestore
@@ -99,6 +102,34 @@ def test_the_hash_of_tf_is_that_which_ros_publishes():
     """Where ROS comes as wheels this workspace brings the type along."""
     theirs = get_typestore(Stores.ROS2_JAZZY).hash_rihs01('tf2_msgs/msg/TFMessage')
     assert type_hash('tf2_msgs/msg/TFMessage') == theirs
+
+
+def filled(type_name):
+    """A message whose arrays hold two numbers each: rosbags refuses some that are empty."""
+    message = message_class(type_name)()
+    for name, kind in message.get_fields_and_field_types().items():
+        if kind == 'sequence<double>':
+            setattr(message, name, [1.0, 2.0])
+    return message
+
+
+def test_others_read_the_type_of_every_topic_of_the_cell(tmp_path):
+    with BagWriter(tmp_path / 'run', {}, {}) as bag:
+        for topic in CELL_TOPICS:
+            name = f'/{topic.name.lstrip("/")}'
+            bag.add_topic(name, topic.type_name, qos_text(topic.qos))
+            bag.write(name, serialize_message(filled(topic.type_name)), 1, 1, 1)
+    names = {f'/{topic.name.lstrip("/")}' for topic in CELL_TOPICS}
+    with AnyReader([tmp_path / 'run']) as bag:
+        read = bag.messages()
+        decoded = {each.topic: bag.deserialize(data, each.msgtype) for each, _, data in read}
+        hashes = {each.topic: each.digest for each in bag.connections}
+    assert set(decoded) == names
+    for topic in CELL_TOPICS:
+        assert hashes[f'/{topic.name.lstrip("/")}'] == type_hash(topic.type_name)
+    with BagReader(tmp_path / 'run').path.open('rb') as stream:
+        bag = make_reader(stream, decoder_factories=[DecoderFactory()])
+        assert {channel.topic for _, channel, _, _ in bag.iter_decoded_messages()} == names
 
 
 def test_nested_types_of_other_packages_are_in_the_bag(tmp_path):

@@ -107,3 +107,21 @@ def test_what_holds_nothing_is_one_line_and_makes_no_folder(broken, tmp_path, ca
 def test_an_existing_folder_is_not_touched(perfect, tmp_path):
     with pytest.raises(InputError, match='exists already'):
         recover(perfect, tmp_path)
+
+
+def test_a_full_disk_leaves_nothing_half_written(perfect, tmp_path, monkeypatch, capsys):
+    def full(*_):
+        raise OSError(28, 'No space left on device')
+
+    monkeypatch.setattr('mcap.writer.Writer.finish', full)
+    assert command.main([str(perfect), '-o', str(tmp_path / 'out')]) == 1
+    assert capsys.readouterr().err.endswith('out: No space left on device\n')
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_was_there_is_kept(perfect, tmp_path, capsys):
+    kept = tmp_path / 'notes.txt'
+    kept.write_text('mine')
+    assert command.main([str(perfect), '-o', str(tmp_path)]) == 2
+    assert 'exists already' in capsys.readouterr().err
+    assert kept.read_text() == 'mine'

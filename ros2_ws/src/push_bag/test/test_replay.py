@@ -71,9 +71,19 @@ def test_text_that_is_no_profile_is_refused():
             qos_profile(text)
 
 
-def test_a_rate_of_zero_is_refused(perfect, capsys):
-    assert main([str(perfect), '--rate', '0']) == 2
-    assert '--rate must be above 0' in capsys.readouterr().err
+@pytest.mark.parametrize(
+    ('words', 'reason'),
+    [
+        (['--rate', '0'], '--rate must be above 0'),
+        (['--start', '-1'], '--start must not be below 0'),
+        (['--start', '60', '--loop'], '--start 60 is after the end at 1.'),
+    ],
+)
+def test_what_cannot_be_played_is_refused_in_one_line(perfect, capsys, words, reason):
+    assert main([str(perfect), *words]) == 2
+    error = capsys.readouterr().err
+    assert reason in error
+    assert error.count('\n') == 1
 
 
 def test_a_subscriber_receives_the_recorded_bytes(perfect):

@@ -56,12 +56,17 @@ def write_inputs(request: Request, parameters: CellParameters, plan: Plan, input
 
 
 def keep_logs(inputs: Path, folder: Path) -> None:
-    """Puts what the nodes said beside the bag."""
+    """Puts what the nodes said beside the bag; all of it or, on a full disk, nothing."""
     logs = sorted(inputs.glob('*.log'))
-    if logs and folder.is_dir():
+    if not (logs and folder.is_dir()):
+        return
+    try:
         (folder / 'log').mkdir()
         for log in logs:
             shutil.copyfile(log, folder / 'log' / log.name)
+    except OSError:
+        # why the run ended has yet to be told, and matters more
+        shutil.rmtree(folder / 'log', ignore_errors=True)
 
 
 def facts(request: Request) -> dict[str, str]:
