@@ -28,7 +28,7 @@ lint: setup  ## check style, types, shell scripts and the Dockerfile
 	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
 	@scripts/in_env hadolint docker/Dockerfile
 
-setup:  ## set up .venv and build the workspace (PYTHON=python3.10 picks the interpreter, EXTRA=bench adds libraries to compare with)
+setup:  ## set up .venv and build the workspace (PYTHON=python3.10 picks the interpreter, EXTRA=bench adds libraries to compare with, EXTRA=parquet pyarrow)
 	@PYTHON='$(PYTHON)' EXTRA='$(EXTRA)' scripts/setup.sh
 
 clean:  ## remove everything that set-up, tests and lint made; runs/ stays

@@ -50,7 +50,7 @@ def parquet_bytes(table: Table) -> bytes:
         import pyarrow  # noqa: PLC0415
         import pyarrow.parquet  # noqa: PLC0415
     except ImportError:
-        raise InputError('--parquet needs pyarrow: pip install pyarrow') from None
+        raise InputError('--parquet needs pyarrow: run `make setup EXTRA=parquet`') from None
     columns = {name: pyarrow.array(each, from_pandas=True) for name, each in table.items()}
     sink = io.BytesIO()
     pyarrow.parquet.write_table(pyarrow.table(columns), sink)

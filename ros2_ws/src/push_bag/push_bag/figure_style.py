@@ -42,7 +42,7 @@ def styled(figure: go.Figure, height: int, **layout: Any) -> go.Figure:
     return figure.update_layout(**layout)
 
 
-def thinned(*series: NDArray[Any]) -> tuple[NDArray[np.float32], ...]:
-    """Series (n,) of one length, every k-th point where n is above MOST_POINTS, as float32."""
-    step = max(1, -(-series[0].shape[0] // MOST_POINTS))
+def thinned(*series: NDArray[Any], most: int = MOST_POINTS) -> tuple[NDArray[np.float32], ...]:
+    """Series (n,) of one length, every k-th point where n is above a limit, as float32."""
+    step = max(1, -(-series[0].shape[0] // most))
     return tuple(np.asarray(values[::step], np.float32) for values in series)

@@ -16,6 +16,7 @@ from push_bag.view import View
 OUTLINES = 16
 LEAST_COLOUR_RANGE = 0.5  # [mm], so that a perfect lap does not show its noise
 HEIGHT = 720
+MOST_MARKERS = 1500  # each is an element of the page, and takes as long to draw as ten of a line
 
 
 def lap_figure(views: Sequence[View]) -> go.Figure:
@@ -75,6 +76,7 @@ def _path(tracking: Tracking) -> go.Scatter:
         tracking.pose[:, 1] * 1e3,
         tracking.distance * 1e3,
         tracking.reference_time,
+        most=MOST_MARKERS,
     )
     return go.Scatter(
         x=x,
