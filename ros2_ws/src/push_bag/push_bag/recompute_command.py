@@ -35,6 +35,20 @@ def add_recompute_arguments(parser: Parser) -> None:
     group.add_argument('--html', type=Path, metavar='FILE', help='draw both over time')
 
 
+def check_recompute_arguments(arguments: argparse.Namespace) -> None:
+    """Refuses what would have no effect.
+
+    Raises:
+        InputError: names it.
+    """
+    if arguments.recompute and arguments.ask:
+        raise InputError('--recompute and --ask: name one of them')
+    if (arguments.controller or arguments.model or arguments.param) and not arguments.recompute:
+        raise InputError('--controller, --model and --param need --recompute')
+    if arguments.html and not (arguments.recompute or arguments.ask):
+        raise InputError('--html needs --recompute or --ask')
+
+
 def recompute(arguments: argparse.Namespace) -> int:
     """Compares recorded with recomputed commands.
 

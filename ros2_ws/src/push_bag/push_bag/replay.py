@@ -15,7 +15,12 @@ from rclpy.signals import SignalHandlerOptions
 
 from push_bag.playback import Publishers, in_order, play, skipped_to
 from push_bag.reader import BagReader, Record
-from push_bag.recompute_command import add_recompute_arguments, ask, recompute
+from push_bag.recompute_command import (
+    add_recompute_arguments,
+    ask,
+    check_recompute_arguments,
+    recompute,
+)
 from push_bag.survey import Survey, survey
 
 DISCOVERY_TIME = 0.5  # [s] for subscribers to find the publishers before the first message
@@ -32,9 +37,8 @@ examples:
 computes with the recorded commands. Nothing changed: status 0 if they are the same bit for bit, 1
 if not. With --controller, --model or --param it says how far the commands lie apart.
 
---ask does the same with a running mpc_node in the run's place of its own: it starts it where the
-recorded one was started, shows it each pair of poses with the time that was known then, and waits
-for its answer. For the nodes:
+--ask does the same with a running mpc_node: it starts it where the recorded one was started, shows
+it each pair of poses with the time that was known then, and waits for its answer. For the nodes:
   ros2 run push_bag info runs/RUN --extract parts
   ros2 run push_gp gp_server --ros-args --params-file parts/params.yaml -p model:=parts/MODEL.npz
   ros2 run push_mpc mpc_node --ros-args --params-file parts/params.yaml -p mode:=lockstep \\
@@ -69,6 +73,7 @@ def _parser() -> Parser:
 
 
 def _work(arguments: argparse.Namespace) -> int:
+    check_recompute_arguments(arguments)
     if arguments.recompute:
         return recompute(arguments)
     if arguments.ask:

@@ -77,6 +77,9 @@ def test_text_that_is_no_profile_is_refused():
         (['--rate', '0'], '--rate must be above 0'),
         (['--start', '-1'], '--start must not be below 0'),
         (['--start', '60', '--loop'], '--start 60 is after the end at 1.'),
+        (['--ask', '--recompute'], 'name one of them'),
+        (['--ask', '--controller', 'gp'], 'need --recompute'),
+        (['--html', 'page.html'], '--html needs --recompute or --ask'),
     ],
 )
 def test_what_cannot_be_played_is_refused_in_one_line(perfect, capsys, words, reason):
