@@ -1,5 +1,6 @@
 """The main of every node: start, spin, stop on SIGINT or SIGTERM, one line for an error."""
 
+import inspect
 import signal
 import sys
 from collections.abc import Callable, Sequence
@@ -11,8 +12,16 @@ from push_core.errors import InputError, PushError
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 _LONGEST_WAIT = 0.1  # [s]
+_HELP = """
+A node of the cell; `ros2 run push_bringup cell` starts them all. It runs until Ctrl-C.
+
+  --ros-args -p NAME:=VALUE        sets a parameter
+  --ros-args --params-file FILE    sets many
+  ros2 run push_bringup parameters lists them all, with units, defaults and ranges
+"""
 _stop_requested = False
 
 
@@ -30,10 +39,13 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         argv: ROS arguments; default: those of the process.
 
     Returns:
-        Exit status: 0 stopped on request, 1 the node failed, 2 a parameter was wrong.
+        Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong.
     """
     stop_on_signals()
     try:
+        if _wants_help(argv):
+            sys.stdout.write(f'{inspect.getdoc(make_node)}\n{_HELP}')
+            return 0
         _init(argv)
         node = _made(make_node)
         try:
@@ -68,6 +80,14 @@ def stop_on_signals() -> None:
     """Lets SIGINT and SIGTERM request a stop instead of ending the process at once."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _on_signal)
+
+
+def _wants_help(argv: Sequence[str] | None) -> bool:
+    """Whether it is asked for; a node takes no other argument of its own."""
+    own = remove_ros_args(sys.argv if argv is None else ['node', *argv])[1:]
+    if own and own[0] not in ('-h', '--help'):
+        raise InputError(f'unknown argument {own[0]!r}; parameters follow --ros-args, see --help')
+    return bool(own)
 
 
 def _init(argv: Sequence[str] | None) -> None:
