@@ -3,7 +3,8 @@
 import inspect
 import signal
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from types import FrameType
 
 import rclpy
@@ -42,11 +43,12 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong.
     """
     stop_on_signals()
+    arguments = sys.argv if argv is None else ['node', *argv]
     try:
-        if _wants_help(argv):
+        if _wants_help(arguments):
             sys.stdout.write(f'{inspect.getdoc(make_node)}\n{_HELP}')
             return 0
-        _init(argv)
+        _init(arguments)
         node = _made(make_node)
         try:
             spinner = Spinner(node)
@@ -82,18 +84,24 @@ def stop_on_signals() -> None:
         signal.signal(number, _on_signal)
 
 
-def _wants_help(argv: Sequence[str] | None) -> bool:
+def _wants_help(arguments: Sequence[str]) -> bool:
     """Whether it is asked for; a node takes no other argument of its own."""
-    own = remove_ros_args(sys.argv if argv is None else ['node', *argv])[1:]
+    with _ros_arguments():
+        own = remove_ros_args(arguments)[1:]
     if own and own[0] not in ('-h', '--help'):
         raise InputError(f'unknown argument {own[0]!r}; parameters follow --ros-args, see --help')
     return bool(own)
 
 
-def _init(argv: Sequence[str] | None) -> None:
-    arguments = sys.argv if argv is None else ['node', *argv]
-    try:
+def _init(arguments: Sequence[str]) -> None:
+    with _ros_arguments():
         rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+
+
+@contextmanager
+def _ros_arguments() -> Iterator[None]:
+    try:
+        yield
     except Exception as error:  # rclpy's own kinds share no base class
         raise InputError(f'bad ROS arguments: {error}') from error
 

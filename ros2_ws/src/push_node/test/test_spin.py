@@ -116,15 +116,15 @@ def test_bad_ros_arguments_are_an_error_of_status_2(node) -> None:
 
 
 def test_asked_for_help_it_tells_and_does_not_start(node) -> None:
-    output, errors = node('--help').communicate(timeout=10.0)
+    output, errors = node('--', '--help').communicate(timeout=20.0)
     assert '--ros-args -p NAME:=VALUE' in output
     assert 'ready' not in output
     assert errors == ''
 
 
 def test_an_argument_that_is_none_of_ros_is_refused(node) -> None:
-    process = node('model.npz')
-    output, errors = process.communicate(timeout=10.0)
+    process = node('--', 'model.npz')
+    output, errors = process.communicate(timeout=20.0)
     assert (process.returncode, output) == (2, '')
     assert errors == (
         "Tested: unknown argument 'model.npz'; parameters follow --ros-args, see --help\n"
