@@ -20,12 +20,13 @@ def poses(horizon):
 def test_it_begins_at_the_predicted_state_and_ends_on_the_reference(tracking, message) -> None:
     ticks = [tracking.tick() for _ in range(60)]
     planned = poses(message.of(ticks[-1].planned, 7))
-    assert planned.shape == (36, 3)
+    settings = tracking.controller.settings
+    assert planned.shape == (settings.horizon_steps + 1, 3)
     assert np.abs(planned[0] - ticks[-1].predicted[:3]).max() < 1e-3
     wanted = tracking.controller.plan.state[ticks[-1].planned.samples[-1], :2]
     assert np.abs(planned[-1, :2] - wanted).max() < 2e-3
-    # 84 mm of path, as the horizon is long
-    assert np.hypot(*np.diff(planned[:, :2], axis=0).T).sum() == pytest.approx(0.084, rel=0.03)
+    length = np.hypot(*np.diff(planned[:, :2], axis=0).T).sum()
+    assert length == pytest.approx(settings.horizon_length, rel=0.05)
 
 
 def test_the_plan_comes_true_while_a_kick_is_made_good(tracking, message) -> None:

@@ -14,6 +14,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.motion_cone import MotionCone
 from push_core.slider import Slider
+from push_mpc.node_settings import mpc_settings
 from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node import qos
@@ -212,7 +213,8 @@ def test_it_tells_its_plan_on_one_tick_in_five(cell, started) -> None:
     stamps = [to_nanoseconds(horizon.header.stamp) for horizon in cell.horizons]
     steps = np.diff([told[stamp] for stamp in stamps if stamp in told])
     assert np.all(steps % 5 == 0)
-    assert {len(horizon.x) for horizon in cell.horizons} == {36}
+    steps = mpc_settings('irb120').horizon_steps
+    assert {len(horizon.x) for horizon in cell.horizons} == {steps + 1}
 
 
 def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started) -> None:
