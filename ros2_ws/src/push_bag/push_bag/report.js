@@ -13,6 +13,8 @@ const pace = document.getElementById('pace');
 let cursor = 0;
 let playing = false;
 let lastFrame = 0;
+let lastMark = 0;
+const MARK_PERIOD = 250; // [ms] while it plays
 
 function frameAt(run, time) {
   let low = 0;
@@ -69,7 +71,12 @@ function draw() {
     }
   }
   Plotly.restyle(view, { x, y }, x.map((_, k) => ANIMATION.first_trace + k));
+}
+
+// takes several times as long as a frame of the animation
+function markTime() {
   Plotly.relayout(errors, { 'shapes[0].x0': cursor, 'shapes[0].x1': cursor });
+  lastMark = performance.now();
 }
 
 function moveTo(time) {
@@ -77,6 +84,7 @@ function moveTo(time) {
   slider.value = cursor;
   label.textContent = `${cursor.toFixed(2)} s`;
   draw();
+  if (!playing || performance.now() - lastMark > MARK_PERIOD) markTime();
 }
 
 function advance(now) {
@@ -90,7 +98,10 @@ function advance(now) {
 function play(on) {
   playing = on;
   playButton.textContent = on ? 'Pause' : 'Play';
-  if (!on) return;
+  if (!on) {
+    markTime();
+    return;
+  }
   if (cursor >= ANIMATION.duration) cursor = 0;
   lastFrame = performance.now();
   requestAnimationFrame(advance);

@@ -63,6 +63,8 @@ def test_the_animation_plays_and_pauses(page) -> None:
     time.sleep(0.2)
     assert cursor(page) == stopped
     assert page.text_content('#cursor-time') == f'{stopped:.2f} s'
+    line = page.evaluate('document.getElementById("time").layout.shapes[0].x0')
+    assert line == stopped
 
 
 def test_the_animation_draws_the_planned_horizon(page) -> None:
