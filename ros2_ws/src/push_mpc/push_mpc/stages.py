@@ -7,6 +7,7 @@ millimetres, hundredths of a radian and, at the usual speeds, inputs of about on
 from dataclasses import dataclass
 
 import numpy as np
+from push_core.errors import InputError
 from push_core.frames import Array
 
 from push_mpc.preview import Preview
@@ -83,10 +84,15 @@ class Stages:
             preview: the linearised dynamics along the plan.
             limits: lowest and highest deviation of p_y [m] and of the limited combinations of
                 the inputs, each (n, 1 + k).
+
+        Raises:
+            InputError: the model moves the object beyond all bounds.
         """
         a = preview.transition * (STATE_SCALE / STATE_SCALE[:, None])
         b = preview.effect * (space.scale / STATE_SCALE[:, None])
         entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * space.size)], axis=-1)
+        if not (np.isfinite(entries).all() and np.isfinite(preview.drift).all()):
+            raise InputError('by the model the object moves beyond all bounds')
         low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
         scale = np.concatenate([STATE_SCALE, space.scale])[:, None]
         return cls(space, -entries, preview.drift / scale[:NX], preview.target / scale, low, high)

@@ -1,6 +1,7 @@
 """Where the plan has to give way so that a constant disturbance leaves the object on its path."""
 
 import numpy as np
+from push_core.errors import InputError
 from push_core.frames import Array
 
 # a turn [rad] weighs like 30 mm of displacement; where the contact goes matters least
@@ -22,6 +23,9 @@ def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
 
     Returns:
         Change (n, 4 + m, 3) of the state, whose position stays, and of the input.
+
+    Raises:
+        InputError: the model's motion is too far from any object's.
     """
     speed = by_twist[:, 2, 2]
     worth = _WORTH[:, None] / speed[:, None, None]
@@ -31,5 +35,9 @@ def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
     balance = worth * np.concatenate([by_state[:, :, 2:], by_input], axis=-1) * ease[:, None]
     turned = balance.swapaxes(1, 2)
     damped = balance @ turned + _DAMPING * np.eye(4)
-    change = -ease[:, :, None] * (turned @ np.linalg.solve(damped, worth * by_twist))
+    try:
+        solved = np.linalg.solve(damped, worth * by_twist)
+    except np.linalg.LinAlgError as error:
+        raise InputError('by the model the object moves beyond all bounds') from error
+    change = -ease[:, :, None] * (turned @ solved)
     return np.concatenate([np.zeros_like(change[:, :2]), change], axis=1)
