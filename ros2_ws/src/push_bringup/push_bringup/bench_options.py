@@ -27,6 +27,13 @@ def add_lap_options(parser: Parser, laps: Path) -> None:
     parser.add_argument('--fresh', action='store_true', help='forget the laps of that file')
 
 
+def add_controllers(parser: Parser) -> None:
+    """Which of the two push."""
+    parser.add_argument(
+        '--controllers', choices=('gp', 'analytical'), nargs='+', default=['gp', 'analytical']
+    )
+
+
 def opened_store(arguments: argparse.Namespace) -> LapStore:
     """The file of laps that the options name.
 

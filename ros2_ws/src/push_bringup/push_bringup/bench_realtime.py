@@ -14,7 +14,7 @@ from push_core.errors import RunError
 from push_gp.analytical_model import ANALYTICAL
 from tqdm import tqdm
 
-from push_bringup.bench_options import check_positive
+from push_bringup.bench_options import add_controllers, check_positive
 from push_bringup.default_model import default_model
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob
 from push_bringup.lap_pool import LapStore, push_all
@@ -78,9 +78,7 @@ def parser() -> Parser:
     described = Parser("Pushes the paper's rows in real time and in process.", EPILOG)
     described.prog = 'bench realtime'
     described.add_argument('--runs', type=int, default=3, help='of each row (default 3)')
-    described.add_argument(
-        '--controllers', choices=('gp', 'analytical'), nargs='+', default=['gp', 'analytical']
-    )
+    add_controllers(described)
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
     described.add_argument(
         '-o',

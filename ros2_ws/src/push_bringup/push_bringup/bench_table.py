@@ -14,7 +14,12 @@ from push_gp.analytical_model import ANALYTICAL
 from push_gp.model_file import load_model
 from push_sim.settings import PROFILES
 
-from push_bringup.bench_options import add_lap_options, check_positive, opened_store
+from push_bringup.bench_options import (
+    add_controllers,
+    add_lap_options,
+    check_positive,
+    opened_store,
+)
 from push_bringup.default_model import default_model
 from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob
 from push_bringup.lap_pool import push_all
@@ -73,6 +78,7 @@ def parser() -> Parser:
     described.add_argument(
         '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
     )
+    add_controllers(described)
     add_lap_options(described, Path('runs/bench_table.jsonl'))
     return described
 
@@ -92,7 +98,7 @@ def work(arguments: argparse.Namespace) -> int:
         (experiment, controller, profile)
         for profile in arguments.profile
         for experiment in PAPER_MM
-        for controller in models
+        for controller in arguments.controllers
     ]
     jobs = [
         LapJob(experiment, controller, models[controller], profile, seed)

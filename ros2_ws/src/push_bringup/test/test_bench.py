@@ -1,10 +1,13 @@
 """The benchmarks: laps that are kept, and what is made of them."""
 
+import importlib
 import json
+import sys
 
 import pytest
-from push_bringup import bench, bench_data, bench_table
+from push_bringup import bench, bench_data, bench_realtime, bench_results, bench_table
 from push_bringup.bench_data import Choice, Point
+from push_bringup.bench_realtime import Agreement
 from push_bringup.bench_table import Row
 from push_bringup.data_page import data_page
 from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
@@ -112,3 +115,40 @@ def test_a_wrong_command_is_one_line_and_status_2(
     said = capsys.readouterr().err
     assert (status, said.count('\n')) == (2, 1)
     assert fault in said
+
+
+def test_real_time_is_told_as_a_ratio_to_in_process() -> None:
+    row = Agreement(LINE, 'gp', (1.0, 2.0, 4.0), (2.5, 2.0, 9.0), completed=2, deadline_misses=7)
+    told = row.as_json()
+    assert (told['in_process_mm'], told['real_time_mm'], told['ratio']) == (2.0, 2.5, 1.25)
+    assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 7 |' in bench_realtime.table([row])
+
+
+def test_every_section_of_the_results_is_a_command_that_its_benchmark_takes(tmp_path) -> None:
+    pushes = tmp_path / 'pushes.csv'
+    arguments = bench_results.parser().parse_args(['--measured', str(pushes), '--fresh'])
+    sections = bench_results.sections(arguments)
+    assert {section.bench for section in sections} == {*bench.BENCHES} - {'results', 'model'}
+    for section in sections:
+        module = importlib.import_module(bench.BENCHES[section.bench][0])
+        module.parser().parse_args(section.options)
+
+
+def test_a_section_shows_its_command_and_what_that_printed(monkeypatch) -> None:
+    def printed(options) -> int:
+        sys.stdout.write('| a table |\n')
+        return 1
+
+    monkeypatch.setattr(bench_table, 'main', printed)
+    options = ('--seeds', '5', '--laps-file', '/somewhere/laps.jsonl', '--fresh')
+    told = bench_results.told(bench_results.Section('The rows', 'Words.', 'table', options))
+    command = '`ros2 run push_bringup bench table --seeds 5`'
+    assert told == f'## The rows\n\nWords.\n\n{command}\n\n| a table |\n'
+
+
+def test_a_benchmark_that_could_not_run_leaves_no_results(monkeypatch, tmp_path, capsys) -> None:
+    monkeypatch.setattr(bench_table, 'main', lambda _options: 2)
+    page = tmp_path / 'results.md'
+    assert bench_results.main(['-o', str(page)]) == 1
+    assert 'bench table ended with status 2' in capsys.readouterr().err
+    assert not page.exists()
