@@ -161,7 +161,9 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
         ),
         Section(
             'By the clock',
-            'The node graph over DDS, recorded, beside the same laps in process; medians.',
+            'The node graph over DDS, recorded, beside the same laps in process; medians. Where a '
+            'host takes the cores away commands are late, and after 0.5 s without a pose the '
+            'lap ends.',
             'realtime',
             ('--runs', str(arguments.runs), '--controllers', 'gp', '-o', f'{WORK}/realtime'),
         ),
