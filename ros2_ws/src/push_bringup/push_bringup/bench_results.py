@@ -23,6 +23,7 @@ About two hours on two cores, the last quarter by the clock: nothing else should
 be interrupted: laps that are in runs/bench_results are not pushed again (--fresh forgets them).
 """
 WORK = 'runs/bench_results'
+MODELS = ('--models', f'{WORK}/models')
 SIZES = ('5', '10', '20', '50', '100', '200', '500', '1000', '2000')
 
 
@@ -99,10 +100,23 @@ def head() -> str:
 
 def sections(arguments: argparse.Namespace) -> list[Section]:
     """All of them, in the order of the file."""
+    return [
+        *_rows(arguments),
+        *_measured(arguments),
+        *_sizes(arguments),
+        *_parts(arguments),
+        *_clock(arguments),
+    ]
+
+
+def _laps(name: str, arguments: argparse.Namespace) -> tuple[str, ...]:
+    """Options that name a section's own file of laps."""
     fresh = ('--fresh',) if arguments.fresh else ()
-    seeds, draws = str(arguments.seeds), str(arguments.draws)
-    models, laps = ('--models', f'{WORK}/models'), ('--laps-file', f'{WORK}/data.jsonl', *fresh)
-    found = [
+    return ('--laps-file', f'{WORK}/{name}.jsonl', *fresh)
+
+
+def _rows(arguments: argparse.Namespace) -> list[Section]:
+    return [
         Section(
             "The paper's table",
             'Beside the errors of the real robot in the paper. `irb120` has the measured lag of '
@@ -110,8 +124,8 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
             'all rows.',
             'table',
             (
-                *('--profile', 'irb120', 'ideal', '--seeds', seeds),
-                *('--laps-file', f'{WORK}/table.jsonl', *fresh),
+                *('--profile', 'irb120', 'ideal', '--seeds', str(arguments.seeds)),
+                *_laps('table', arguments),
             ),
         ),
         Section(
@@ -120,10 +134,32 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
             'latency, jitter, lost pictures and commands (docs/worlds.md).',
             'table',
             (
-                *('--profile', 'harsh', '--controllers', 'gp', '--seeds', seeds),
-                *('--laps-file', f'{WORK}/harsh.jsonl', *fresh),
+                *('--profile', 'harsh', '--controllers', 'gp', '--seeds', str(arguments.seeds)),
+                *_laps('harsh', arguments),
             ),
         ),
+    ]
+
+
+def _measured(arguments: argparse.Namespace) -> list[Section]:
+    if arguments.measured is None:
+        return []
+    return [
+        Section(
+            'Learned from the pushes of the real cell',
+            'The same lap with models of measured pushes: what was learned of one plant, tried on '
+            'another.',
+            'data',
+            (
+                *('--data', str(arguments.measured), '--points', '10', '50', '200'),
+                *('--draws', str(arguments.draws), *MODELS, *_laps('measured', arguments)),
+            ),
+        ),
+    ]
+
+
+def _sizes(arguments: argparse.Namespace) -> list[Section]:
+    return [
         Section(
             'Training size',
             'The 8-track at 80 mm/s, profile `irb120`, with models of random nested draws from '
@@ -131,20 +167,41 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
             'pushes, unstable with fewer at random, 9 mm with the die in four laps of five, '
             'level with the analytical controller from about 200 on.',
             'data',
-            ('--points', *SIZES, '--draws', draws, *models, *laps),
+            (
+                '--points',
+                *SIZES,
+                '--draws',
+                str(arguments.draws),
+                *MODELS,
+                *_laps('data', arguments),
+            ),
         ),
         Section(
             'Training size: 5000',
             'With a zero mean alone; the fit over a motion cone takes five times as long.',
             'data',
-            ('--points', '5000', '--mean', 'zero', '--draws', draws, *models, *laps),
+            (
+                '--points',
+                '5000',
+                '--mean',
+                'zero',
+                '--draws',
+                str(arguments.draws),
+                *MODELS,
+                *_laps('data_5000', arguments),
+            ),
         ),
+    ]
+
+
+def _parts(arguments: argparse.Namespace) -> list[Section]:
+    return [
         Section(
             'What each part is worth',
             'The GP controller with parts off, profile `irb120`. `preset paper` has the literal '
             'weights, horizon and plan of the paper; control.md says why they do not track.',
             'ablation',
-            ('--seeds', '1', '--laps-file', f'{WORK}/ablation.jsonl', *fresh),
+            ('--seeds', '1', *_laps('ablation', arguments)),
         ),
         Section(
             'The solver: GP controller',
@@ -159,6 +216,11 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
             'timing',
             ('--controller', 'analytical'),
         ),
+    ]
+
+
+def _clock(arguments: argparse.Namespace) -> list[Section]:
+    return [
         Section(
             'By the clock',
             'The node graph over DDS, recorded, beside the same laps in process; medians. Where a '
@@ -168,23 +230,6 @@ def sections(arguments: argparse.Namespace) -> list[Section]:
             ('--runs', str(arguments.runs), '--controllers', 'gp', '-o', f'{WORK}/realtime'),
         ),
     ]
-    if arguments.measured is not None:
-        found.insert(2, _measured(arguments.measured, draws, fresh))
-    return found
-
-
-def _measured(pushes: Path, draws: str, fresh: tuple[str, ...]) -> Section:
-    return Section(
-        'Learned from the pushes of the real cell',
-        'The same lap with models of measured pushes: what was learned of one plant, tried on '
-        'another.',
-        'data',
-        (
-            *('--data', str(pushes), '--points', '10', '50', '200'),
-            *('--draws', draws, '--models', f'{WORK}/models'),
-            *('--laps-file', f'{WORK}/measured.jsonl', *fresh),
-        ),
-    )
 
 
 def told(section: Section) -> str:
