@@ -11,6 +11,9 @@ from push_bag.run_reader import read_run
 from push_core.errors import InputError
 
 CELL = ('ros2', 'run', 'push_bringup', 'cell')
+# in real time: a machine that takes the cores away for half a second shall not end the run
+PATIENT = ('-p', 'mpc_node.pose_loss:=10.0')
+HANG = 300.0  # [s]; nothing but a hang takes that long
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,7 @@ class Ended:
     def of_command(cls, environment: dict[str, str], *command: str) -> 'Ended':
         """Runs a command to its end."""
         done = subprocess.run(
-            command, env=environment, capture_output=True, text=True, timeout=120, check=False
+            command, env=environment, capture_output=True, text=True, timeout=HANG, check=False
         )
         return cls(done.returncode, done.stdout, done.stderr)
 
@@ -55,7 +58,7 @@ def is_pushing(runs: Path) -> bool:
 
 def wait_until(condition: Callable[[], bool], cell: 'subprocess.Popen[str]') -> None:
     """Waits for a condition while the cell lives."""
-    deadline = time.monotonic() + 60.0
+    deadline = time.monotonic() + HANG
     while not condition():
         assert cell.poll() is None, cell.communicate()
         assert time.monotonic() < deadline

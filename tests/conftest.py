@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from cell_command import CELL, Ended, is_pushing, wait_until
+from cell_command import CELL, PATIENT, Ended, is_pushing, wait_until
 
 # a domain of our own, so that no cell of the machine's user is in the way
 DOMAIN = str(40 + os.getpid() % 40)
@@ -35,7 +35,7 @@ def pushing_cell(environment: dict[str, str], tmp_path: Path) -> Iterator['subpr
     """A realtime cell that has been pushing for a second."""
     runs = tmp_path / 'runs'
     cell = subprocess.Popen(
-        [*CELL, '--speed', '0.05', '-o', str(runs)],
+        [*CELL, *PATIENT, '--speed', '0.05', '-o', str(runs)],
         env=environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

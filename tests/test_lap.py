@@ -1,16 +1,24 @@
-"""A recorded and scored run, in real time, as readers that we did not write see it."""
+"""A recorded and scored run, in lockstep and in real time, as readers not of ours see it, too.
+
+How well a run in real time tracks depends on the machine: `bench realtime` measures it. Here
+stands what holds of such a run however late its nodes were.
+"""
 
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
-from cell_command import Ended
+from cell_command import PATIENT, Ended
 from mcap_ros2.reader import read_ros2_messages
+from push_bag.recompute import Changes, recomputed
 from push_bag.run_reader import read_run
 from rosbags.highlevel import AnyReader
+
+LINE = ('--track', 'line', '--speed', '0.15')
 
 
 @pytest.fixture(scope='module')
@@ -18,22 +26,40 @@ def realtime_run(
     environment: dict[str, str], tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Ended]:
     """One straight line in real time."""
-    yield Ended.of(
-        environment, '--track', 'line', '-o', str(tmp_path_factory.mktemp('line') / 'runs')
-    )
+    runs = tmp_path_factory.mktemp('line') / 'runs'
+    yield Ended.of(environment, *LINE, *PATIENT, '-o', str(runs))
 
 
-def test_a_realtime_run_is_completed_recorded_whole_and_scored(realtime_run: Ended) -> None:
-    assert realtime_run.status == 0, realtime_run.err
-    score = json.loads((realtime_run.folder / 'score.json').read_text())
+def score_of(run: Ended) -> dict[str, Any]:
+    score: dict[str, Any] = json.loads((run.folder / 'score.json').read_text())
+    return score
+
+
+def lost_messages(run: Ended) -> int:
+    return sum(count['lost'] for count in score_of(run)['messages'].values())
+
+
+def test_a_run_in_lockstep_is_completed_recorded_whole_and_tracks(
+    run_cell: Callable[..., Ended],
+) -> None:
+    run = run_cell(*LINE, '--mode', 'lockstep')
+    assert run.status == 0, run.err
+    score = score_of(run)
     assert score['completed']
     assert score['profile'] == 'irb120'
     assert score['model']['points'] == 200
-    assert score['tracking_error_mm']['mean'] < 4.0
-    assert {topic: count['lost'] for topic, count in score['messages'].items()} == dict.fromkeys(
-        score['messages'], 0
-    )
-    assert (realtime_run.folder / 'report.html').stat().st_size < 6e6
+    assert score['tracking_error_mm']['mean'] < 1.6
+    assert lost_messages(run) == 0
+    assert (run.folder / 'report.html').stat().st_size < 6e6
+
+
+def test_a_run_in_real_time_is_completed_or_says_why_not(realtime_run: Ended) -> None:
+    score = score_of(realtime_run)
+    assert (score['mode'], score['bag_finished']) == ('realtime', True)
+    assert realtime_run.status == (0 if score['completed'] else 1)
+    said = 'cell: the run was not completed: ' in realtime_run.err
+    assert said != score['completed']
+    assert (realtime_run.folder / 'report.html').exists()
 
 
 def test_two_other_readers_find_the_same_topics_counts_and_poses(realtime_run: Ended) -> None:
@@ -68,13 +94,11 @@ def test_score_and_info_read_the_run(realtime_run: Ended, environment: dict[str,
     assert '/controller_state' in told.out
 
 
-def test_the_commands_computed_again_are_the_recorded_ones(
-    realtime_run: Ended, environment: dict[str, str]
-) -> None:
-    replay = ('ros2', 'run', 'push_bag', 'replay', str(realtime_run.folder), '--recompute')
-    told = Ended.of_command(environment, *replay)
-    assert told.status == 0, told.out + told.err
-    assert 'commands are the same, bit for bit' in told.out
+def test_the_commands_computed_again_are_the_recorded_ones(realtime_run: Ended) -> None:
+    again = recomputed(realtime_run.folder, Changes())
+    assert again.stamp.size > 0
+    # a recorder that had no core for long may have missed a pose, and without it there is no proof
+    assert again.same or lost_messages(realtime_run) > 0
 
 
 def test_two_cells_run_side_by_side_in_namespaces(

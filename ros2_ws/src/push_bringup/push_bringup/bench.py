@@ -14,6 +14,7 @@ BENCHES = {
     'model': ('push_bringup.bench_model', 'our Gaussian processes beside public libraries'),
     'timing': ('push_bringup.bench_timing', 'the quadratic programs of a lap by several solvers'),
     'realtime': ('push_bringup.bench_realtime', "the paper's rows by the clock, and in process"),
+    'stopping': ('push_bringup.bench_stopping', 'how long a cell takes to end after Ctrl-C'),
     'results': ('push_bringup.bench_results', 'all that concerns the controllers, into one file'),
 }
 

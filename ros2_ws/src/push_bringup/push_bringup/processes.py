@@ -16,7 +16,7 @@ MODULES = {
     'mpc_node': 'push_mpc.mpc_node',
     'recorder': 'push_bag.recorder',
 }
-_PATIENCE = 1.5  # [s] for a node to end after SIGINT
+PATIENCE = 5.0  # [s] for a node to end after SIGINT; one that is killed may leave half a bag
 _SET_PARENT_DEATH_SIGNAL = 1
 _LIBC = ctypes.CDLL(None)
 
@@ -91,18 +91,20 @@ class Processes:
                 self._children[name].process.send_signal(signal.SIGINT)
 
     def stop(self, *names: str) -> None:
-        """Asks nodes to end, waits for them, and kills those that do not."""
+        """Asks nodes to end, waits for them, and kills those that do not, saying so."""
         self.interrupt(*names)
-        deadline = time.monotonic() + _PATIENCE
+        deadline = time.monotonic() + PATIENCE
         for name in names:
-            self._wait(self._children[name].process, deadline)
+            self._wait(name, deadline)
 
-    def _wait(self, process: 'subprocess.Popen[bytes]', deadline: float) -> None:
+    def _wait(self, name: str, deadline: float) -> None:
+        process = self._children[name].process
         try:
             process.wait(max(deadline - time.monotonic(), 0.0))
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+            sys.stderr.write(f'cell: {name} did not end within {PATIENCE:g} s and was killed\n')
 
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]

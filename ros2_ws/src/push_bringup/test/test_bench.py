@@ -5,7 +5,14 @@ import json
 import sys
 
 import pytest
-from push_bringup import bench, bench_data, bench_realtime, bench_results, bench_table
+from push_bringup import (
+    bench,
+    bench_data,
+    bench_realtime,
+    bench_results,
+    bench_stopping,
+    bench_table,
+)
 from push_bringup.bench_data import Choice, Point
 from push_bringup.bench_realtime import Agreement
 from push_bringup.bench_table import Row
@@ -102,6 +109,7 @@ def test_nested_draws_of_one_seed_contain_each_other(pushes) -> None:
         (['data', '--draws', '0'], '--draws'),
         (['data', '--data', 'none.csv'], 'none.csv'),
         (['table', '--html', 'none/page.html'], 'none'),
+        (['stopping', '--runs', '0'], '--runs'),
     ],
 )
 def test_a_wrong_command_is_one_line_and_status_2(
@@ -124,11 +132,20 @@ def test_real_time_is_told_as_a_ratio_to_in_process() -> None:
     assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 7 |' in bench_realtime.table([row])
 
 
+def test_stopping_is_told_by_median_and_largest() -> None:
+    told = bench_stopping.text([0.5, 0.75, 2.0])
+    assert 'median 0.75 s, largest 2.00 s of 3 runs' in told
+
+
 def test_every_section_of_the_results_is_a_command_that_its_benchmark_takes(tmp_path) -> None:
     pushes = tmp_path / 'pushes.csv'
     arguments = bench_results.parser().parse_args(['--measured', str(pushes), '--fresh'])
     sections = bench_results.sections(arguments)
-    assert {section.bench for section in sections} == {*bench.BENCHES} - {'results', 'model'}
+    assert {section.bench for section in sections} == {*bench.BENCHES} - {
+        'results',
+        'model',
+        'stopping',
+    }
     for section in sections:
         module = importlib.import_module(bench.BENCHES[section.bench][0])
         module.parser().parse_args(section.options)
