@@ -6,7 +6,7 @@ setup(
     description='Every run on record: recorder, reader, replay, score and report of MCAP bags.',
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
-    package_data={'': ['py.typed', '*.js']},
+    package_data={'': ['py.typed', '*.js', 'plotly/*']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/push_bag']),
         ('share/push_bag', ['package.xml']),

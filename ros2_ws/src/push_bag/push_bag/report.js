@@ -1,7 +1,6 @@
 // The moving parts of the report: one time cursor, shared by the animation and the plots.
+// A figure may be drawn later (figures.js): until then nothing moves in it.
 // `ANIMATION` is what animation.py wrote: lengths in mm, times in s, all runs on one time.
-'use strict';
-
 const view = document.getElementById('animation');
 const errors = document.getElementById('time');
 const lap = document.getElementById('lap');
@@ -60,6 +59,7 @@ function horizon(run, frame) {
 const MOVING = [trail, outline, horizon, tip];
 
 function draw() {
+  if (!view.data) return;
   const x = [];
   const y = [];
   for (const run of ANIMATION.runs) {
@@ -75,6 +75,7 @@ function draw() {
 
 // takes several times as long as a frame of the animation
 function markTime() {
+  if (!errors.data) return;
   Plotly.relayout(errors, { 'shapes[0].x0': cursor, 'shapes[0].x1': cursor });
   lastMark = performance.now();
 }
@@ -110,9 +111,15 @@ function play(on) {
 slider.max = ANIMATION.duration;
 slider.addEventListener('input', () => moveTo(Number(slider.value)));
 playButton.addEventListener('click', () => play(!playing));
-errors.on('plotly_click', (event) => moveTo(event.points[0].x));
-lap.on('plotly_click', (event) => {
-  const data = event.points[0].customdata;
-  if (data) moveTo(data[0]);
+view.addEventListener('drawn', draw);
+errors.addEventListener('drawn', () => {
+  markTime();
+  errors.on('plotly_click', (event) => moveTo(event.points[0].x));
+});
+lap.addEventListener('drawn', () => {
+  lap.on('plotly_click', (event) => {
+    const data = event.points[0].customdata;
+    if (data) moveTo(data[0]);
+  });
 });
 moveTo(0);

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from push_core.atomic_file import write_atomically
-from push_core.page import drawn, page, section
+from push_core.page import page, section
 
 from push_bag.animation import animation_data, animation_figure
+from push_bag.deferred_figure import deferred, drawing_library, drawing_script
 from push_bag.lap_figure import lap_figure
 from push_bag.run_reader import read_run
 from push_bag.score import score_json, score_series
@@ -53,19 +54,22 @@ def report_html(scored: Sequence[Scored]) -> str:
     """
     shown = views(scored)
     sections = [
-        section('The lap', drawn(lap_figure(shown), 'lap')),
-        section('In motion', CONTROLS + drawn(animation_figure(shown), 'animation')),
-        section('Over time', drawn(time_figure(shown), 'time')),
-        section('Timing', drawn(timing_figure(shown), 'timing')),
+        section('The lap', deferred(lap_figure(shown), 'lap')),
+        section('In motion', CONTROLS + deferred(animation_figure(shown), 'animation')),
+        section('Over time', deferred(time_figure(shown), 'time')),
+        section('Timing', deferred(timing_figure(shown), 'timing')),
         section('Score', _table(_names(shown), _score_rows(shown))),
         section('Messages', _table(_names(shown), _message_rows(shown))),
         section('Run facts', _table(_names(shown), _fact_rows(shown))),
     ]
     head = _head_of_one(shown[0]) if len(shown) == 1 else _head_of_several(shown)
     page_title = title(shown[0].score) if len(shown) == 1 else f'{len(shown)} runs'
+    return page(page_title, sections, head, _script(shown), drawing_library())
+
+
+def _script(shown: Sequence[View]) -> str:
     moving = files('push_bag').joinpath('report.js').read_text(encoding='utf-8')
-    script = f'const ANIMATION = {animation_data(shown)};\n{moving}'
-    return page(page_title, sections, head, script)
+    return f'const ANIMATION = {animation_data(shown)};\n{drawing_script()}\n{moving}'
 
 
 def _head_of_one(view: View) -> str:

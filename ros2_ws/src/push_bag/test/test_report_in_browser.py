@@ -44,11 +44,33 @@ def cursor(page) -> float:
     return page.evaluate('cursor')
 
 
+def time_line(page) -> float:
+    return page.evaluate('document.getElementById("time").layout.shapes[0].x0')
+
+
+def come_to(page, name: str) -> None:
+    page.locator(f'#{name}').scroll_into_view_if_needed()
+    page.wait_for_function(f'document.querySelector("#{name} .scatterlayer path") !== null')
+
+
 def test_it_opens_without_a_word_on_the_console_and_draws_the_lap(page, complaints) -> None:
     path = page.locator('#lap .scatterlayer .trace path')
     assert path.count() > 10
     assert page.locator('#lap').bounding_box()['height'] > 400
     assert complaints == []
+
+
+def test_a_figure_far_below_is_drawn_when_one_comes_to_it(page) -> None:
+    page.evaluate('moveTo(0.25)')
+    assert page.locator('#time svg').count() == 0
+    come_to(page, 'time')
+    assert time_line(page) == cursor(page) == 0.25
+    assert page.locator('#time .scatterlayer .trace').count() > 5
+
+
+def test_all_figures_are_drawn_for_print(page) -> None:
+    page.evaluate('window.dispatchEvent(new Event("beforeprint"))')
+    assert page.locator('#timing .barlayer .point').count() > 0
 
 
 def test_the_animation_plays_and_pauses(page) -> None:
@@ -63,8 +85,8 @@ def test_the_animation_plays_and_pauses(page) -> None:
     time.sleep(0.2)
     assert cursor(page) == stopped
     assert page.text_content('#cursor-time') == f'{stopped:.2f} s'
-    line = page.evaluate('document.getElementById("time").layout.shapes[0].x0')
-    assert line == stopped
+    come_to(page, 'time')
+    assert time_line(page) == stopped
 
 
 def test_the_animation_draws_the_planned_horizon(page) -> None:
@@ -80,17 +102,28 @@ def test_the_animation_draws_the_planned_horizon(page) -> None:
 
 def test_a_click_on_the_error_moves_the_cursor(page) -> None:
     page.evaluate('moveTo(0)')
+    come_to(page, 'time')
     plot = page.locator('#time .nsewdrag').first
     plot.scroll_into_view_if_needed()
     box = plot.bounding_box()
     page.mouse.move(box['x'] + 0.5 * box['width'], box['y'] + 0.5 * box['height'])
     page.mouse.click(box['x'] + 0.5 * box['width'], box['y'] + 0.5 * box['height'])
     page.wait_for_function('cursor > 0')
-    line = page.evaluate('document.getElementById("time").layout.shapes[0].x0')
+    line = time_line(page)
     assert line == cursor(page)
     assert page.evaluate('Number(document.getElementById("cursor").value)') == pytest.approx(
         line, abs=0.011
     )
+
+
+def test_a_click_on_the_lap_moves_the_cursor(page) -> None:
+    come_to(page, 'lap')
+    page.evaluate('moveTo(0)')
+    point = page.locator('#lap .scatterlayer .trace .point').nth(40)
+    point.hover(force=True)
+    page.mouse.down()
+    page.mouse.up()
+    page.wait_for_function('cursor > 0')
 
 
 def test_moving_the_slider_moves_the_square(page) -> None:

@@ -18,7 +18,9 @@ DIVERGING = 'RdBu'
 HEIGHT = 420
 
 
-def page(title: str, sections: Sequence[str], head: str = '', script: str = '') -> str:
+def page(
+    title: str, sections: Sequence[str], head: str = '', script: str = '', library: str = ''
+) -> str:
     """The page.
 
     Args:
@@ -26,13 +28,14 @@ def page(title: str, sections: Sequence[str], head: str = '', script: str = '') 
         sections: HTML of each, see `section`; figures without the drawing library.
         head: HTML above the sections; default: the title.
         script: JavaScript that runs when all is there.
+        library: JavaScript that draws; default: plotly.js as a whole.
     """
     style = files('push_core').joinpath('page.css').read_text(encoding='utf-8')
     above = head or f'<h1>{escape(title)}</h1>'
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         f'<title>{escape(title)}</title><style>{style}</style>'
-        f'<script>{get_plotlyjs()}</script></head>\n<body>{above}{"".join(sections)}'
+        f'<script>{library or get_plotlyjs()}</script></head>\n<body>{above}{"".join(sections)}'
         f'<script>{script}</script></body></html>\n'
     )
 
