@@ -16,7 +16,6 @@ from scipy.optimize import OptimizeResult, minimize
 from push_gp.folded_likelihood import FoldedLikelihood
 from push_gp.hyperparameters import Hyperparameters
 from push_gp.likelihood import MarginalLikelihood
-from push_gp.newton import stationary_point
 from push_gp.prior import Prior
 
 FIRST_STAGE = 300
@@ -36,7 +35,7 @@ pushes decide alone."""
 
 HOPELESS = 1e25
 TOLERANCE = 1e-8
-"""Relative to the log likelihood, which is a few nats per push."""
+"""Of the log likelihood of a push, which is a few nats."""
 
 Loss: TypeAlias = Callable[[Array], tuple[float, Array]]
 
@@ -57,9 +56,7 @@ def fit(inputs: Array, outputs: Array, prior: Prior) -> Hyperparameters:
         loss = _loss(inputs[rows], outputs[rows], prior)
         best = _best(loss, prior, starts)
         starts = best + RESTARTS
-    return Hyperparameters.from_logarithms(
-        stationary_point(lambda at: loss(at)[1], best, prior.low, prior.high)
-    )
+    return Hyperparameters.from_logarithms(best)
 
 
 def _stages(count: int) -> Iterator[slice]:
@@ -80,10 +77,14 @@ def _best(loss: Loss, prior: Prior, starts: Array) -> Array:
 
 
 def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
-    """Negative log posterior [nat] with its gradient (4,)."""
-    few = len(outputs) <= FIRST_STAGE
+    """Negative log posterior of a push [nat] with its gradient (4,).
+
+    Of one push, so that the search's first step, which is as long as the gradient, stays near.
+    """
+    count = len(outputs)
+    few = count <= FIRST_STAGE
     likelihood = (MarginalLikelihood if few else FoldedLikelihood)(inputs, outputs)
-    trust = min(1.0, (BELIEF / len(outputs)) ** 2)
+    trust = min(1.0, (BELIEF / count) ** 2)
 
     def loss(logarithms: Array) -> tuple[float, Array]:
         try:
@@ -91,7 +92,7 @@ def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
         except RunError:
             return HOPELESS, np.zeros(4)
         belief, belief_slope = prior.with_gradient(logarithms)
-        return -value - trust * belief, -slope - trust * belief_slope
+        return -(value + trust * belief) / count, -(slope + trust * belief_slope) / count
 
     return loss
 

@@ -12,8 +12,8 @@ from push_core.frames import Array
 
 from push_gp.chebyshev import Interval
 
-CUT_OFF = 1e-15
-"""Terms of the kernel that are smaller, at unit signal, are left out."""
+ROUND_OFF = 1e-15
+"""Terms of the kernel of unit signal that no sum in double precision notices."""
 
 
 @dataclass(frozen=True)
@@ -33,18 +33,24 @@ class KernelModes:
     products: Array
 
     @classmethod
-    def of(cls, intervals: Sequence[Interval], lengthscales: Sequence[float]) -> 'KernelModes':
+    def of(
+        cls,
+        intervals: Sequence[Interval],
+        lengthscales: Sequence[float],
+        cut_off: float = ROUND_OFF,
+    ) -> 'KernelModes':
         """The modes that matter.
 
         Args:
             intervals: where the two inputs lie.
             lengthscales: of the two inputs.
+            cut_off: terms of the kernel of unit signal that are smaller are left out.
         """
         (first, across), (second, around) = (
-            _modes(interval.kernel(lengthscale, interval.enough(lengthscale))[0])
+            _modes(interval.kernel(lengthscale, interval.enough(lengthscale))[0], cut_off)
             for interval, lengthscale in zip(intervals, lengthscales, strict=True)
         )
-        products = np.array(np.nonzero(np.outer(first, second) > CUT_OFF))
+        products = np.array(np.nonzero(np.outer(first, second) > cut_off))
         return cls(intervals, (across, around), (first, second), products)
 
     def __len__(self) -> int:
@@ -69,8 +75,8 @@ class KernelModes:
         return np.asarray(self.products_at(points) * np.sqrt(first * second))
 
 
-def _modes(kernel: Array) -> tuple[Array, Array]:
+def _modes(kernel: Array, cut_off: float) -> tuple[Array, Array]:
     """Eigenvalues (k,) that matter of coefficients (m, m), and their vectors (m, k)."""
     values, vectors = np.linalg.eigh(kernel)
-    kept = values > CUT_OFF
+    kept = values > cut_off
     return values[kept], vectors[:, kept]
