@@ -25,9 +25,9 @@ STAGE_GROWTH = 4
 STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0], [1, 1, 0.3, 3]])
 """(k, 4) factors on the prior's centre where the search starts."""
 
-RESTARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 1.0, 1.0, 1.0]])
+RESTARTS = np.log([[0.5, 1.0, 1.0, 1.0], [1.0, 0.2, 1.0, 0.9]])
 """(k, 4) factors on the best so far where each later stage starts: more pushes may show more
-detail along the face than fewer did."""
+detail along the face, or over the directions, than fewer did."""
 
 BELIEF = 300
 """Pushes up to which the prior counts in full; it fades with the square of more, so that many
