@@ -77,7 +77,9 @@ def test_a_killed_controller_leaves_the_tip_at_rest_and_the_cell_says_why(
     assert 'signal 9' in err.splitlines()[-1]
     folder = Path(out.splitlines()[-1])
     assert folder.parent == tmp_path / 'runs'
-    assert not json.loads((folder / 'score.json').read_text())['completed']
+    score = json.loads((folder / 'score.json').read_text())
+    assert not score['completed']
+    assert 'signal 9' in score['stop_reason']
     speed = tip_speed(read_run(folder).pusher)
     assert speed.max() > 0.03
     assert speed[-1] < AT_REST

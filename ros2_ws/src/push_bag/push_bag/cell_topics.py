@@ -32,6 +32,7 @@ CELL_TOPICS = (
     CellTopic('model_info', 'push_msgs/msg/ModelInfo', LATCHED, core=True),
     CellTopic('horizon', 'push_msgs/msg/Horizon', STATE),
     CellTopic('perturbation', 'push_msgs/msg/Perturbation', EVENT),
+    CellTopic('run_end', 'std_msgs/msg/String', LATCHED),
     CellTopic('scene', 'visualization_msgs/msg/MarkerArray', SCENE),
     CellTopic('/diagnostics', 'diagnostic_msgs/msg/DiagnosticArray', QoSProfile(depth=10)),
     CellTopic('/tf', 'tf2_msgs/msg/TFMessage', TF),

@@ -55,7 +55,7 @@ class _Rows:
             'controller_state': TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
         }
         self._topics: dict[str, tuple[Traffic, Callable[[Record], None] | None]] = {}
-        self._stop_reason = ''
+        self._stop_reason = self._end_reason = ''
         self._reference: Reference | None = None
         self._model: Model | None = None
         self._disturbances: list[Disturbance] = []
@@ -66,6 +66,7 @@ class _Rows:
             'model_info': self._set_model,
             'perturbation': self._add_disturbance,
             'horizon': self._horizons.append,
+            'run_end': self._set_end_reason,
         }
 
     def add(self, record: Record) -> None:
@@ -95,7 +96,8 @@ class _Rows:
             pusher=tables['pusher_pose'],
             commands=tables['pusher_velocity_cmd'],
             states=tables['controller_state'],
-            stop_reason=self._stop_reason,
+            # the cell also knows of nodes that died, whose controller could not say so
+            stop_reason=self._end_reason or self._stop_reason,
             reference=self._reference,
             model=self._model,
             disturbances=tuple(self._disturbances),
@@ -113,6 +115,9 @@ class _Rows:
 
     def _set_reference(self, record: Record) -> None:
         self._reference = reference(record.message())
+
+    def _set_end_reason(self, record: Record) -> None:
+        self._end_reason = str(record.message().data)
 
     def _set_model(self, record: Record) -> None:
         self._model = model(record.message())

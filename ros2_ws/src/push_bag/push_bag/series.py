@@ -124,7 +124,8 @@ class RunSeries:
         pusher: position (n, 2) of the tip [m].
         commands: velocity (n, 2) in the world frame [m/s].
         states: (n, len(STATE_COLUMNS)) of the controller's ticks, see `state`.
-        stop_reason: why the controller stopped last; empty where it did not.
+        stop_reason: why the run ended before its end, else why the controller stopped last; empty
+            where neither is told of.
         reference: None where none was recorded.
         model: None where none was recorded.
         disturbances: in order.

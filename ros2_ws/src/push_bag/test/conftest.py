@@ -13,6 +13,7 @@ from push_bag.message_types import message_class
 from push_bag.qos_text import qos_text
 from push_msgs.msg import ControllerState
 from rclpy.serialization import serialize_message
+from std_msgs.msg import String
 
 SIDE, TIP = 0.09, 0.00475
 PERIOD_NS = 10_000_000
@@ -22,7 +23,7 @@ ARMED_TICKS = 20
 LEAD_TICKS = 11  # in TRACKING before the reference starts
 DONE_TICKS = 10
 FLUSH_TICKS = 25  # as the recorder does every 0.25 s
-EXTRA = ('perturbation', 'horizon')
+EXTRA = ('perturbation', 'horizon', 'run_end')
 HORIZON = np.linspace(0.0, 0.35, 36)  # [s] ahead
 CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name in EXTRA}
 
@@ -53,6 +54,8 @@ class Synthetic:
     limited: object = lambda tick: 0
     modes: object = None
     perturbed_at: float | None = None
+    stop_reason: str = ''  # that the controller states at the end
+    end_reason: str = ''  # that the cell states
     facts: dict = field(default_factory=dict)
 
     def __post_init__(self):
@@ -103,6 +106,7 @@ class Recorder:
             self.write('model_info', 0, self.model())
             for tick in range(self.synthetic.ticks):
                 self.record_tick(tick)
+            self.write('run_end', tick, String(data=self.synthetic.end_reason))
 
     def record_tick(self, tick):
         synthetic = self.synthetic
@@ -144,6 +148,8 @@ class Recorder:
         state.input = state.nominal_input = [0.08, 0.0]
         state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
         state.solver_status, state.limited = 1, self.synthetic.limited(tick)
+        if tick == self.synthetic.ticks - 1:
+            state.stop_reason = self.synthetic.stop_reason
         return state
 
     def horizon(self, tick, time):

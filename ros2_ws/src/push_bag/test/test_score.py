@@ -173,3 +173,19 @@ def test_a_run_in_one_process_has_no_time_from_pose_to_command(record):
     score = score_run(record(facts={'mode': 'inprocess'}, unanswered=(100,)))
     assert score['pose_to_command_ms']['p50'] is None
     assert score['deadline_misses'] == 1
+
+
+def test_what_the_cell_says_of_the_end_counts_more_than_what_the_controller_said(record):
+    score = score_run(record(stop_reason='no pose for 510 ms', end_reason='sim_node ended'))
+    assert score['stop_reason'] == 'sim_node ended'
+
+
+def test_the_controller_says_why_it_stopped_where_the_cell_says_nothing(record):
+    assert score_run(record(stop_reason='no pose for 510 ms'))['stop_reason'] == (
+        'no pose for 510 ms'
+    )
+
+
+def test_a_controller_that_died_leaves_its_reason_to_the_cell(record):
+    score = score_run(record(end_reason='mpc_node ended with killed by signal 9'))
+    assert score['stop_reason'] == 'mpc_node ended with killed by signal 9'

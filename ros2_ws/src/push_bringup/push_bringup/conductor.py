@@ -17,6 +17,7 @@ from push_node.spin import Spinner, stop_on_signals
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from tqdm import tqdm
 
@@ -45,6 +46,7 @@ class Conductor:
         self._node.create_subscription(
             ControllerState, 'controller_state', self._on_state, qos.STATE
         )
+        self._end = self._node.create_publisher(String, 'run_end', qos.LATCHED)
         self._reset = self._node.create_client(Reset, 'push_sim/reset')
         self._start = self._node.create_client(Trigger, 'push_mpc/start')
 
@@ -60,7 +62,20 @@ class Conductor:
             seed: of the plant.
 
         Returns:
-            Why it stopped before the end, empty if it did not.
+            Why it ended before its end, empty if it did not; the recorder is told as well.
+
+        Raises:
+            KeyboardInterrupt: a stop was requested.
+        """
+        try:
+            reason = self._run(seed)
+        except RunError as error:
+            reason = str(error)
+        self._end.publish(String(data=reason))
+        return reason
+
+    def _run(self, seed: int) -> str:
+        """Why the controller stopped before the end, empty if it did not.
 
         Raises:
             RunError: the cell did not get ready, or a node ended.

@@ -4,8 +4,6 @@ import os
 import time
 from pathlib import Path
 
-from push_core.errors import RunError
-
 from push_bringup.cell_lock import CellLock
 from push_bringup.cell_parameters import installed_config
 from push_bringup.processes import Processes
@@ -27,7 +25,6 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
         Why the run ended before its end, empty if it did not.
 
     Raises:
-        RunError: the cell did not get ready.
         KeyboardInterrupt: a stop was requested.
     """
     with (
@@ -42,8 +39,6 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
         conductor = Conductor(request.namespace, processes)
         try:
             return conductor.run(request.seed)
-        except RunError as error:
-            return str(error)
         finally:
             _stop_in_order(processes)
             conductor.close()

@@ -28,7 +28,7 @@ from push_mpc.pose_pair import PosePair
 from push_mpc.recorder_watch import RecorderWatch
 from push_mpc.tabulation import Tabulated
 
-LAST_WORD_TIMEOUT = 0.3  # [s] for the last command to arrive
+LAST_WORD_TIMEOUT = 0.3  # [s] for the last command to arrive, and for the last state
 WATCHDOG_PERIOD = 0.01  # [s]
 REPORT_PERIOD = 1.0  # [s]
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
@@ -66,8 +66,9 @@ class MpcNode(Node):  # type: ignore[misc]
         """Leaves the tip at rest."""
         if self._controller.mode in _MOVING:
             self._halt('the controller was shut down')
-            # a publisher that goes away takes along what has not arrived
-            self._commands.wait_for_all_acked(Duration(seconds=LAST_WORD_TIMEOUT))
+        # a publisher that goes away takes along what has not arrived
+        for publisher in (self._commands, self._states):
+            publisher.wait_for_all_acked(Duration(seconds=LAST_WORD_TIMEOUT))
         self._model.close()
         super().destroy_node()
 
