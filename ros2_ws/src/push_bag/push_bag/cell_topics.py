@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from push_node.qos import COMMAND, EVENT, LATCHED, POSE, SCENE, STATE, TF
+from push_node.qos import COMMAND, EVENT, HISTORY, LATCHED, POSE, SCENE, STATE, TF
 from rclpy.qos import QoSProfile
 
 
@@ -30,6 +30,7 @@ CELL_TOPICS = (
     CellTopic('nominal_trajectory', 'push_msgs/msg/NominalTrajectory', LATCHED, core=True),
     CellTopic('controller_state', 'push_msgs/msg/ControllerState', STATE, core=True),
     CellTopic('model_info', 'push_msgs/msg/ModelInfo', LATCHED, core=True),
+    CellTopic('added_pushes', 'push_msgs/msg/AddedPushes', HISTORY),
     CellTopic('horizon', 'push_msgs/msg/Horizon', STATE),
     CellTopic('perturbation', 'push_msgs/msg/Perturbation', EVENT),
     CellTopic('run_end', 'std_msgs/msg/String', LATCHED),

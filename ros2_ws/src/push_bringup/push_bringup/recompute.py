@@ -8,6 +8,7 @@ next, at each tick anew.
 
 import math
 import tempfile
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,8 +26,10 @@ from tqdm import tqdm
 
 from push_bringup.cell_parameters import CellParameters, recorded_parameters
 from push_bringup.in_process import tabulated
+from push_bringup.recorded_model import RecordedModel
 
 PARAMS_FILE = 'params.yaml'
+ModelUsed = Callable[[str], PushModel]  # by the id of the one that the run used
 
 
 def recomputed(path: Path, changes: Changes) -> Recomputed:
@@ -43,27 +46,24 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
     with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
         files = _unpacked(run, Path(scratch))
         parameters = _parameters(run, changes, files)
-        model = model_named(parameters.gp.model, parameters.gp.slider)
-        shadow = Shadow(parameters, model, changes.any)
+        shadow = Shadow(parameters, _model_used(run, parameters, files))
     return _compared(run, shadow)
 
 
 class Shadow(Controller):
     """A controller that computes what it would send and keeps in mind what was sent instead."""
 
-    def __init__(self, parameters: CellParameters, model: PushModel, other_model: bool) -> None:
+    def __init__(self, parameters: CellParameters, model_used: ModelUsed) -> None:
         """Plans anew, from the parameters.
 
         Args:
             parameters: of the cell.
-            model: the one model that it knows.
-            other_model: whether that may be another than the recorded one.
+            model_used: the model to use in place of the one that had an id.
         """
-        mpc = parameters.mpc
-        super().__init__(mpc, mpc.slider, planned(mpc))
-        self._known_as = '' if other_model else model.info.model_id
+        super().__init__(parameters.mpc, parameters.mpc.slider, planned(parameters.mpc))
+        self._side = parameters.mpc.slider.side
+        self._model_used = model_used
         self._recorded_id = ''
-        self._ready = self.prepared(tabulated(model, mpc.slider.side), model.info.model_id)
         self._was_sent: Array | None = None
 
     def answer(self, tick: RecordedTick) -> Array | None:
@@ -92,16 +92,10 @@ class Shadow(Controller):
             self.arm()
 
     def _take_model(self, recorded_id: str) -> None:
-        if self._known_as not in ('', recorded_id):
-            happened = (
-                'its model changed (add_pushes) to' if self._recorded_id else 'it used model'
-            )
-            raise InputError(
-                f'cannot compute this run again: {happened} {recorded_id}, '
-                f'but the bag holds {self._known_as}; name a model file with --model'
-            )
+        model = self._model_used(recorded_id)
+        table = tabulated(model, self._side)
+        self.use(self.prepared(table, model.info.model_id))
         self._recorded_id = recorded_id
-        self.use(self._ready)
 
     def _without_poses(self, tick: RecordedTick) -> Array:
         if tick.mode == Mode.STOPPED:
@@ -128,6 +122,14 @@ def _compared(run: RecordedRun, shadow: Shadow) -> Recomputed:
         np.array(computed, np.float64).reshape(-1, 2),
         skipped,
     )
+
+
+def _model_used(run: RecordedRun, parameters: CellParameters, files: dict[str, Path]) -> ModelUsed:
+    """The recorded model as it grew; where another was named, that one throughout."""
+    model = model_named(parameters.gp.model, parameters.gp.slider)
+    if parameters.gp != _parameters(run, Changes(), files).gp:
+        return lambda _recorded_id: model
+    return RecordedModel(model, parameters.gp.max_points, run.reader).grown_to
 
 
 def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:

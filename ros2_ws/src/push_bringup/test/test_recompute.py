@@ -7,14 +7,18 @@ import pytest
 from push_bag.bag_writer import BagWriter
 from push_bag.reader import BagReader
 from push_bag.recompute import Changes, recomputed
+from push_bag.recorded_ticks import RecordedRun
 from push_bag.replay import main as replay
 from push_bringup.cell_parameters import CellParameters, node_defaults
-from push_bringup.in_process import InProcessCell, nanoseconds
+from push_bringup.in_process import InProcessCell, nanoseconds, tabulated
 from push_bringup.in_process_record import InProcessRecord
 from push_core.errors import InputError
+from push_gp.conversions import added_pushes_message
+from push_gp.model_file import load_model
+from push_gp.model_server import ModelServer
 from push_gp.model_source import model_named
 from push_mpc.controller import Mode, Tick
-from push_node.stamps import to_seconds
+from push_node.stamps import to_seconds, to_stamp
 from rclpy.serialization import serialize_message
 
 TICKS = 150
@@ -137,23 +141,71 @@ def test_another_model_than_that_of_the_run_is_refused(eventful, model_file, tmp
         recomputed(bag, Changes())
 
 
-def test_a_run_whose_model_grew_is_refused_by_the_name_of_what_is_missing(
-    eventful, tmp_path, capsys
-):
-    """What a model became by `add_pushes` is not in the bag."""
-    reader, grown = BagReader(eventful), tmp_path / 'grown'
-    records = list(reader.records())
-    with BagWriter(grown, reader.facts, reader.attachments) as writer:
-        for topic in reader.topics.values():
-            writer.add_topic(topic.name, topic.type_name, topic.qos)
-        for number, each in enumerate(records):
-            data = each.data
-            if each.topic.name == '/controller_state' and number > len(records) // 2:
-                state = each.message()
-                state.model_id = 'grown0000000'
-                data = serialize_message(state)
-            writer.write(each.topic.name, data, *each[2:])
-    assert replay([str(grown), '--recompute']) == 2
+@pytest.fixture(scope='module')
+def grown(parameters, model_file, tmp_path_factory):
+    """A run during which pushes were added twice; the first addition was never used."""
+    folder = tmp_path_factory.mktemp('grown') / 'run'
+    attached = {
+        'params.yaml': parameters.as_yaml().encode(),
+        model_file.name: model_file.read_bytes(),
+    }
+    model = load_model(model_file)
+    cell, server = InProcessCell(parameters, model), ModelServer(model, parameters.gp.max_points)
+    with BagWriter(folder, {}, attached) as writer:
+        record = InProcessRecord(writer, cell.plant, cell.controller)
+        record.head(parameters.mpc, model.info)
+        writer.add_topic('/added_pushes', 'push_msgs/msg/AddedPushes', '')
+        _push_and_learn(cell, record, server, writer)
+    cell.close()
+    return folder
+
+
+def _push_and_learn(cell, record, server, writer):
+    controller, observation = cell.controller, cell._reset()
+    controller.arm()
+    for number in range(80):
+        if number == 40:
+            for scale in (1.05, 1.1):
+                writer.write('/added_pushes', serialize_message(added(server, scale)), 1, 1)
+            table = tabulated(server.model, controller.settings.slider.side)
+            controller.use(controller.prepared(table, server.info.model_id))
+        tick = controller.step(
+            observation.object_pose, observation.tip_position, observation.time, cell.plant.time
+        )
+        record.tick(observation, tick, 0.0)
+        controller.prepare_next()
+        cell.plant.command(tick.velocity, cell.plant.time)
+        observation = cell.plant.step()
+
+
+def added(server, scale):
+    """A server takes in some of its own pushes with longer displacements, and tells of them."""
+    few = server.model.pushes.take(np.arange(5))
+    further = replace(few, p_y=few.p_y * scale, displacement=few.displacement * scale)
+    server.add_pushes(further)
+    return added_pushes_message(further, server.info.model_id, to_stamp(0))
+
+
+def test_a_model_that_grew_is_grown_again(grown, capsys):
+    used = {tick.model_id for tick in RecordedRun(grown).ticks()}
+    assert len(used) == 2
+    assert replay([str(grown), '--recompute']) == 0
+    assert capsys.readouterr().out == '80 of 80 commands are the same, bit for bit\n'
+
+
+def test_another_weight_leaves_the_model_to_grow_and_another_model_does_not(grown, model_file):
+    heavier = recomputed(grown, Changes(params={'weights.contact': 500.0}))
+    assert heavier.differs.any()
+    # the same file under another name is used throughout: right until the model grew
+    fixed = recomputed(grown, Changes(model=model_file))
+    assert not fixed.differs[:40].any()
+    assert fixed.differs[40:].any()
+
+
+def test_a_run_whose_added_pushes_are_not_in_the_bag_is_refused(grown, tmp_path, capsys):
+    names = [each.topic.name for each in BagReader(grown).records()]
+    lossy = without(grown, tmp_path / 'lossy', names.index('/added_pushes'))
+    assert replay([str(lossy), '--recompute']) == 2
     error = capsys.readouterr().err
-    assert 'changed (add_pushes) to grown0000000, but the bag holds' in error
+    assert 'cannot compute this run again: it used model' in error
     assert error.count('\n') == 1

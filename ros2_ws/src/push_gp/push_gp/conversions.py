@@ -9,6 +9,7 @@ from builtin_interfaces.msg import Time
 from push_core.errors import InputError
 from push_core.frames import Array
 from push_core.push_set import PushSet
+from push_msgs.msg import AddedPushes
 from push_msgs.msg import ModelInfo as ModelInfoMessage
 from push_msgs.srv import AddPushes, Predict
 
@@ -40,8 +41,21 @@ def queries_of(request: Predict.Request) -> tuple[Array, Array]:
     return _vector(request.p_y), _vector(request.beta)
 
 
-def pushes_of(request: AddPushes.Request) -> PushSet:
-    """The pushes of a request.
+def added_pushes_message(pushes: PushSet, model_id: str, stamp: Time) -> AddedPushes:
+    """Pushes that a server took in, and the model that they made at a time [since the epoch]."""
+    message = AddedPushes(
+        model_id=model_id,
+        p_y=flat(pushes.p_y),
+        beta=flat(pushes.beta),
+        displacement=flat(pushes.displacement),
+        distance=pushes.distance,
+    )
+    message.header.stamp = stamp
+    return message
+
+
+def pushes_of(request: AddPushes.Request | AddedPushes) -> PushSet:
+    """The pushes of a request, or of those that were taken in.
 
     Raises:
         InputError: the lengths do not fit, or a value is no good.

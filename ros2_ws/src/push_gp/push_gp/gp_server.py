@@ -4,15 +4,22 @@ import sys
 from collections.abc import Sequence
 
 from push_core.errors import PushError
-from push_msgs.msg import ModelInfo
+from push_core.push_set import PushSet
+from push_msgs.msg import AddedPushes, ModelInfo
 from push_msgs.srv import AddPushes, Predict
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared
-from push_node.qos import LATCHED
+from push_node.qos import HISTORY, LATCHED
 from push_node.spin import run_node
 from rclpy.node import Node
 
-from push_gp.conversions import flat, model_info_message, pushes_of, queries_of
+from push_gp.conversions import (
+    added_pushes_message,
+    flat,
+    model_info_message,
+    pushes_of,
+    queries_of,
+)
 from push_gp.model_server import ModelServer
 from push_gp.model_source import model_named
 from push_gp.server_settings import ServerSettings
@@ -35,6 +42,7 @@ class GpServer(Node):  # type: ignore[misc]
         self._server = ModelServer(model, settings.max_points)
         self._answered = self._refused = 0
         self._announcements = self.create_publisher(ModelInfo, 'model_info', LATCHED)
+        self._added = self.create_publisher(AddedPushes, 'added_pushes', HISTORY)
         self._reporter = Reporter(self, 'model')
         self._entities = (
             self.create_service(Predict, 'push_gp/predict', self._predict),
@@ -59,14 +67,20 @@ class GpServer(Node):  # type: ignore[misc]
         self, request: AddPushes.Request, response: AddPushes.Response
     ) -> AddPushes.Response:
         try:
-            self._server.add_pushes(pushes_of(request))
+            pushes = pushes_of(request)
+            self._server.add_pushes(pushes)
         except PushError as error:
             self._refuse(response, error)
         else:
             self._accept(response)
+            self._tell_of(pushes)
             self._announce()
         response.points = self._server.info.points
         return response
+
+    def _tell_of(self, pushes: PushSet) -> None:
+        stamp = self.get_clock().now().to_msg()
+        self._added.publish(added_pushes_message(pushes, self._server.info.model_id, stamp))
 
     def _accept(self, response: Predict.Response | AddPushes.Response) -> None:
         self._answered += 1

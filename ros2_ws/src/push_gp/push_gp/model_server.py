@@ -44,6 +44,11 @@ class ModelServer:
             self.predict(np.zeros(1), np.full(1, math.pi / 2.0), want_variance=True)
 
     @property
+    def model(self) -> PushModel:
+        """The model by now."""
+        return self._model
+
+    @property
     def info(self) -> ModelInfo:
         """What the model is by now."""
         return self._model.info

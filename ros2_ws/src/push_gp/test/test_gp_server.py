@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 import rclpy
 from push_core.push_set import PushSet
+from push_gp.conversions import pushes_of
 from push_gp.gp_model import GpModel
 from push_gp.model_file import save_model
-from push_msgs.msg import ModelInfo
+from push_msgs.msg import AddedPushes, ModelInfo
 from push_msgs.srv import AddPushes, Predict
 from push_node.ask import ask
-from push_node.qos import LATCHED
+from push_node.qos import HISTORY, LATCHED
 from rclpy.experimental import EventsExecutor
 
 pytestmark = pytest.mark.processes
@@ -35,6 +36,8 @@ class Client:
         self.executor.add_node(self.node)
         self.announced: list[ModelInfo] = []
         self.node.create_subscription(ModelInfo, 'model_info', self.announced.append, LATCHED)
+        self.added: list[AddedPushes] = []
+        self.node.create_subscription(AddedPushes, 'added_pushes', self.added.append, HISTORY)
         self.predictor = self.node.create_client(Predict, 'push_gp/predict')
         self.adder = self.node.create_client(AddPushes, 'push_gp/add_pushes')
 
@@ -175,6 +178,9 @@ class TestServer:
         assert client.announced[-1].model_id == answer.model_id
         assert client.announced[-1].model_hash == model.extended(more_pushes).info.model_hash
         assert client.predict([0.0], [1.0]).model_id == answer.model_id
+        client.wait_until(lambda: bool(client.added))
+        assert client.added[-1].model_id == answer.model_id
+        assert pushes_of(client.added[-1]).sha256() == more_pushes.sha256()
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
