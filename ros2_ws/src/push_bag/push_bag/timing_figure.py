@@ -32,8 +32,7 @@ def timing_figure(views: Sequence[View]) -> go.Figure:
 def _fill_panel(figure: go.Figure, column: int, views: Sequence[View]) -> None:
     times = [_times(view)[column - 1] for view in views]
     if not any(each.size for each in times):
-        axes = {'xref': _domain('x', column), 'yref': _domain('y', column), 'showarrow': False}
-        figure.add_annotation(text='not measured', x=0.5, y=0.5, **axes)
+        _say_not_measured(figure, column)
         return
     edges = np.histogram_bin_edges(np.concatenate(times), BINS)
     counts = [np.histogram(each, edges)[0] for each in times]
@@ -46,6 +45,15 @@ def _fill_panel(figure: go.Figure, column: int, views: Sequence[View]) -> None:
     # from below one tick to above the highest bar, in decades
     decades = [-0.2, np.log10(max(int(count.max()) for count in counts)) + 0.3]
     figure.update_yaxes(type='log', dtick=1, range=decades, row=1, col=column)
+
+
+def _say_not_measured(figure: go.Figure, column: int) -> None:
+    # an axis is there only once something uses it
+    figure.add_trace(go.Bar(x=[None], y=[None]), row=1, col=column)
+    for axes in (figure.update_xaxes, figure.update_yaxes):
+        axes(tickvals=[], row=1, col=column)
+    places = {'xref': _domain('x', column), 'yref': _domain('y', column), 'showarrow': False}
+    figure.add_annotation(text='not measured', x=0.5, y=0.5, **places)
 
 
 def _domain(axis: str, column: int) -> str:

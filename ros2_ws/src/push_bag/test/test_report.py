@@ -13,6 +13,7 @@ from push_bag.report import REPORT_FILE, report_html, write_results
 from push_bag.run_reader import read_run
 from push_bag.score import score_series
 from push_bag.score_command import main
+from push_bag.timing_figure import timing_figure
 from push_bag.view import views
 
 
@@ -56,6 +57,14 @@ def test_the_page_shows_verdict_score_and_facts(page):
 def test_a_run_that_never_tracked_has_a_report_too(record):
     run = read_run(record(modes=lambda _tick: 1))
     assert 'not completed' in report_html([(run, score_series(run))])
+
+
+def test_a_panel_without_measurements_says_so_in_its_own_place(record):
+    run = read_run(record(facts={'mode': 'inprocess'}))
+    figure = timing_figure(views([(run, score_series(run))]))
+    (words,) = [each for each in figure.layout.annotations if each.text == 'not measured']
+    assert words.xref == 'x3 domain'
+    assert 'x3' in {trace.xaxis for trace in figure.data}
 
 
 def test_facts_cannot_inject_markup(perfect):
