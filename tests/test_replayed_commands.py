@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from cell_command import Ended
+from cell_command import HANG, Ended
 
 LINE = ('--mode', 'inprocess', '--track', 'line', '--speed', '0.15', '--controller', 'analytical')
 
@@ -43,7 +43,7 @@ def nodes(
     yield
     for process in started:
         process.terminate()
-        process.wait(timeout=10.0)
+        process.wait(timeout=HANG)
 
 
 def test_a_running_controller_sends_the_recorded_commands_bit_for_bit(

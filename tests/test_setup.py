@@ -58,7 +58,7 @@ def message(project, tools, **environment):
         capture_output=True,
         text=True,
         check=False,
-        timeout=20,
+        timeout=60,
     )
     assert result.returncode == 1
     assert result.stderr.count('\n') == 1, result.stderr

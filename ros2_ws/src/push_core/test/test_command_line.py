@@ -91,7 +91,7 @@ def test_a_reader_that_goes_away_ends_the_command_in_silence() -> None:
     command.stdout.readline()
     command.stdout.close()
     assert command.stderr.read() == b''
-    assert command.wait(timeout=10.0) == 141
+    assert command.wait(timeout=60.0) == 141
     command.stderr.close()
 
 

@@ -22,7 +22,7 @@ from rclpy.experimental import EventsExecutor
 
 ROUNDS = 5
 HEARD = 0.3
-"""How long [s] a first answer takes at most, once the server knows its client."""
+"""How long [s] to wait for a first answer before asking once more."""
 LONG = 2000
 """How many times over the client that dies asks its question, so that it dies in mid-call."""
 
@@ -36,8 +36,9 @@ class Asker:
         self.predictor = node.create_client(Predict, 'push_gp/predict')
         self._executor = EventsExecutor()
         self._executor.add_node(node)
-        while not self._happens(self.predictor.call_async(Predict.Request()).done, HEARD):
-            pass
+        asked = [self.predictor.call_async(Predict.Request())]
+        while not self._happens(lambda: any(each.done() for each in asked), HEARD):
+            asked.append(self.predictor.call_async(Predict.Request()))
 
     def answer(self, request: Predict.Request) -> Any:
         found = ask(self.predictor, request, self._happens)

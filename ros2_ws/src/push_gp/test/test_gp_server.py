@@ -1,6 +1,5 @@
 """The server as a process of its own, over real DDS."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -23,8 +22,7 @@ from rclpy.experimental import EventsExecutor
 
 pytestmark = pytest.mark.processes
 
-DOMAIN = 63
-PATIENCE = 20.0
+PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 
 
 class Client:
@@ -75,7 +73,6 @@ def started(*parameters: str) -> subprocess.Popen[str]:
     options = [option for parameter in parameters for option in ('-p', parameter)]
     return subprocess.Popen(
         [sys.executable, '-m', 'push_gp.gp_server', '--ros-args', *options],
-        env={**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)},
         stderr=subprocess.PIPE,
         text=True,
     )
@@ -83,7 +80,7 @@ def started(*parameters: str) -> subprocess.Popen[str]:
 
 @pytest.fixture(scope='module')
 def client() -> Iterator[Client]:
-    rclpy.init(domain_id=DOMAIN)
+    rclpy.init()
     client = Client()
     yield client
     client.executor.remove_node(client.node)
@@ -101,8 +98,7 @@ def server(
     client.wait_until(lambda: bool(client.announced))
     yield process
     process.terminate()
-    process.wait(2.0)
-    assert process.returncode == 0
+    assert process.wait(PATIENCE) == 0
 
 
 @pytest.mark.usefixtures('server')
@@ -159,12 +155,11 @@ class TestServer:
             'import os, rclpy; from push_msgs.srv import Predict; rclpy.init();'
             'node = rclpy.create_node("dying");'
             'client = node.create_client(Predict, "push_gp/predict");'
-            'assert client.wait_for_service(10.0);'
+            'assert client.wait_for_service(60.0);'
             'client.call_async(Predict.Request(p_y=[0.0] * 20000, beta=[1.5] * 20000));'
             'os._exit(0)'
         )
-        environment = {**os.environ, 'ROS_DOMAIN_ID': str(DOMAIN)}
-        subprocess.run([sys.executable, '-c', code], env=environment, check=True, timeout=20)
+        subprocess.run([sys.executable, '-c', code], check=True, timeout=2 * PATIENCE)
         assert client.predict([0.0], [1.0]).success
 
     def test_it_takes_new_pushes_in_and_announces_the_new_model(
@@ -184,13 +179,13 @@ class TestServer:
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> None:
+def test_a_signal_ends_it_with_status_0(client: Client, number: int) -> None:
     before = len(client.announced)
     process = started('model:=analytical', 'slider.friction_pusher:=0.2')
     client.wait_until(lambda: len(client.announced) > before)
     assert client.announced[-1].kind == 'analytical'
     process.send_signal(number)
-    assert process.wait(2.0) == 0
+    assert process.wait(PATIENCE) == 0
 
 
 @pytest.mark.parametrize(
@@ -201,7 +196,7 @@ def test_a_signal_ends_it_within_two_seconds(client: Client, number: int) -> Non
     ],
 )
 def test_a_wrong_parameter_is_one_line_and_status_2(parameter: str, fault: str) -> None:
-    _, shown = (process := started(parameter)).communicate(timeout=30.0)
+    _, shown = (process := started(parameter)).communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert fault in shown
     assert shown.count('\n') == 1

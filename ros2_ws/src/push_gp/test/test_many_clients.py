@@ -1,7 +1,6 @@
 """The server with many clients at once, each in a process of its own, over real DDS."""
 
 import json
-import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -16,19 +15,17 @@ pytestmark = pytest.mark.processes
 
 CLIENTS = 8
 CROWD = Path(__file__).with_name('crowd.py')
-ENVIRONMENT = {**os.environ, 'ROS_DOMAIN_ID': '69'}
+PATIENCE = 120.0  # [s]; nothing but a hang takes that long
 
 
 @pytest.fixture
 def server(model: GpModel, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     save_model(tmp_path / 'model.npz', model)
     options = ['--ros-args', '-p', f'model:={tmp_path / "model.npz"}']
-    process = subprocess.Popen(
-        [sys.executable, '-m', 'push_gp.gp_server', *options], env=ENVIRONMENT
-    )
+    process = subprocess.Popen([sys.executable, '-m', 'push_gp.gp_server', *options])
     yield process
     process.terminate()
-    assert process.wait(5.0) == 0
+    assert process.wait(PATIENCE) == 0
 
 
 @pytest.mark.usefixtures('server')
@@ -41,10 +38,9 @@ def test_each_of_many_clients_is_answered_right_while_one_of_them_is_killed(
         [sys.executable, str(CROWD)],
         input=json.dumps(questions.tolist()),
         stdout=subprocess.PIPE,
-        env=ENVIRONMENT,
         text=True,
         check=True,
-        timeout=60.0,
+        timeout=PATIENCE,
     )
     answers = json.loads(crowd.stdout)
     assert len(answers) == CLIENTS - 1

@@ -1,6 +1,5 @@
-"""Nodes as processes of their own, and one client in this process, on a domain of their own."""
+"""Nodes as processes of their own, and one client in this process."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -14,31 +13,20 @@ from push_node.spin import Spinner
 from rclpy.context import Context
 from rclpy.node import Node
 
-DOMAIN = 67
-PATIENCE = 20.0
+PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 
 Process = subprocess.Popen[str]
 NodeMaker = Callable[..., Node]
 
 
-@pytest.fixture(scope='session')
-def environment() -> dict[str, str]:
-    return {
-        **os.environ,
-        'ROS_DOMAIN_ID': str(DOMAIN),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    }
-
-
 @pytest.fixture
-def started(environment: dict[str, str]) -> Iterator[Callable[..., Process]]:
+def started() -> Iterator[Callable[..., Process]]:
     """Starts a program that holds a node, with ROS arguments."""
     processes: list[Process] = []
 
     def start(program: str, *arguments: str) -> Process:
         process = subprocess.Popen(
             [sys.executable, '-c', program, '--ros-args', *arguments],
-            env=environment,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
@@ -55,7 +43,7 @@ def started(environment: dict[str, str]) -> Iterator[Callable[..., Process]]:
 
 @pytest.fixture(scope='module')
 def context() -> Iterator[Context]:
-    rclpy.init(domain_id=DOMAIN)
+    rclpy.init()
     yield rclpy.get_default_context()
     rclpy.try_shutdown()
 

@@ -9,7 +9,10 @@ import pytest
 
 pytestmark = pytest.mark.processes
 
+PATIENCE = 60.0  # [s]; nothing but a hang takes that long
+
 PROGRAM = """
+import os
 import sys
 from push_core.errors import InputError, PushError, RunError
 from push_node.spin import request_stop, run_node
@@ -48,16 +51,21 @@ def node(started):
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_within_2_s_cleaned_up_with_status_0(node, number) -> None:
+def test_a_signal_ends_it_cleaned_up_with_status_0(node, number) -> None:
     process = node()
     assert process.stdout.readline() == 'ready\n'
-    begin = time.monotonic()
     process.send_signal(number)
-    output, errors = process.communicate(timeout=10.0)
-    assert time.monotonic() - begin < 2.0
+    output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 0
     assert output == 'cleaned up\n'
     assert errors == ''
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_after_a_signal_no_further_callback_runs(node, number) -> None:
+    tick = f"sys.stdout.write('tick\\n'); os.kill(os.getpid(), {number:d})"
+    output, _ = node(tick=tick).communicate(timeout=PATIENCE)
+    assert output == 'ready\ntick\ncleaned up\n'
 
 
 def test_an_idle_node_leaves_the_core_alone(node) -> None:
@@ -79,14 +87,14 @@ def test_an_idle_node_leaves_the_core_alone(node) -> None:
 )
 def test_an_error_in_the_constructor_is_one_line_and_its_status(node, error, status, line) -> None:
     process = node(construction=f'raise {error}')
-    _, errors = process.communicate(timeout=20.0)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == status
     assert errors == line + '\n'
 
 
 def test_an_error_in_a_callback_ends_it_cleaned_up_with_status_1(node) -> None:
     process = node(tick="raise RunError('the tip is stuck')")
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1
     assert output == 'ready\ncleaned up\n'
     assert errors.splitlines()[-1] == 'Tested: the tip is stuck'
@@ -95,7 +103,7 @@ def test_an_error_in_a_callback_ends_it_cleaned_up_with_status_1(node) -> None:
 
 def test_a_mistake_in_a_callback_is_not_hidden(node) -> None:
     process = node(tick='1 / 0')
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1
     assert output == 'ready\ncleaned up\n'
     assert errors.splitlines()[-1] == 'ZeroDivisionError: division by zero'
@@ -103,20 +111,20 @@ def test_a_mistake_in_a_callback_is_not_hidden(node) -> None:
 
 def test_a_node_can_end_by_itself(node) -> None:
     process = node(tick='request_stop()')
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output, errors) == (0, 'ready\ncleaned up\n', '')
 
 
 def test_bad_ros_arguments_are_an_error_of_status_2(node) -> None:
     process = node('-p', 'nonsense')
-    _, errors = process.communicate(timeout=20.0)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert errors.splitlines()[-1].startswith('Tested: bad ROS arguments: ')
     assert 'Traceback' not in errors
 
 
 def test_asked_for_help_it_tells_and_does_not_start(node) -> None:
-    output, errors = node('--', '--help').communicate(timeout=20.0)
+    output, errors = node('--', '--help').communicate(timeout=PATIENCE)
     assert '--ros-args -p NAME:=VALUE' in output
     assert 'ready' not in output
     assert errors == ''
@@ -124,7 +132,7 @@ def test_asked_for_help_it_tells_and_does_not_start(node) -> None:
 
 def test_an_argument_that_is_none_of_ros_is_refused(node) -> None:
     process = node('--', 'model.npz')
-    output, errors = process.communicate(timeout=20.0)
+    output, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output) == (2, '')
     assert errors == (
         "Tested: unknown argument 'model.npz'; parameters follow --ros-args, see --help\n"

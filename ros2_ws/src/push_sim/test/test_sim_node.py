@@ -1,6 +1,5 @@
 """The node as a process of its own, over real DDS."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -24,7 +23,7 @@ from rclpy.node import Node
 
 pytestmark = pytest.mark.processes
 
-DOMAIN = '64'
+PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 OBJECT_POSE = [0.1, -0.2, 0.3]
 TIP = Slider().tip_position(np.array(OBJECT_POSE), 0.01).tolist()
 
@@ -51,7 +50,7 @@ class Client:
         if self.answer is not None:
             self._commands.publish(self.answer(message))
 
-    def wait(self, finished: Callable[[], bool], timeout: float = 20.0) -> None:
+    def wait(self, finished: Callable[[], bool], timeout: float = PATIENCE) -> None:
         assert self._happens(finished, timeout)
 
     def _happens(self, finished: Callable[[], bool], timeout: float) -> bool:
@@ -75,8 +74,6 @@ class Client:
 
 @pytest.fixture(scope='module')
 def client() -> Iterator[Client]:
-    os.environ['ROS_DOMAIN_ID'] = DOMAIN
-    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     rclpy.init()
     yield Client()
     rclpy.try_shutdown()
@@ -102,7 +99,7 @@ def lockstep(client: Client) -> Iterator[None]:
     client.wait(lambda: client.node.count_publishers('perturbation') > 0)
     yield
     process.terminate()
-    process.communicate(timeout=2.0)
+    process.communicate(timeout=PATIENCE)
 
 
 def command(stamp, velocity) -> TwistStamped:
@@ -113,20 +110,22 @@ def command(stamp, velocity) -> TwistStamped:
     return message
 
 
+def age(pose: PoseStamped) -> int:
+    return time.time_ns() - to_nanoseconds(pose.header.stamp)
+
+
 def test_realtime_poses_come_on_a_grid_of_10_ms_until_sigterm(client) -> None:
     process = start_node()
     assert client.reset().success
     client.poses.clear()
-    client.wait(lambda: len(client.poses) >= 50)
-    # late wake-ups of a busy machine skip poses, but the plant keeps up with the clock
-    age = time.time_ns() - to_nanoseconds(client.poses[-1].header.stamp)
-    assert 0 < age < 500_000_000
+    # late wake-ups of a busy machine skip poses, but the plant comes up with the clock again
+    client.wait(lambda: len(client.poses) >= 50 and 0 < age(client.poses[-1]) < 500_000_000)
     steps = np.diff([to_nanoseconds(pose.header.stamp) for pose in client.poses])
     assert np.all(steps > 0)
     assert np.all(steps % 10_000_000 == 0)
     assert client.poses[-1].pose.position.x == pytest.approx(OBJECT_POSE[0], abs=1e-3)
     process.send_signal(signal.SIGTERM)
-    assert process.wait(timeout=2.0) == 0
+    assert process.wait(timeout=PATIENCE) == 0
     assert 'Traceback' not in process.communicate()[1]
     client.wait(lambda: client.node.count_publishers('object_pose') == 0)
 
@@ -160,8 +159,9 @@ def test_lockstep_gives_the_trajectory_of_the_loop_without_dds(client, lockstep,
 def test_lockstep_waits_and_shows_an_unanswered_pose_again(client, lockstep) -> None:
     assert client.reset().success
     client.poses.clear()
-    client.wait(lambda: len(client.poses) >= 3)
-    assert len({to_nanoseconds(pose.header.stamp) for pose in client.poses}) == 1
+    # what was on its way before the reset may come first
+    client.wait(lambda: len(client.poses) >= 5)
+    assert len({to_nanoseconds(pose.header.stamp) for pose in client.poses[-3:]}) == 1
 
 
 def test_a_perturbation_is_applied_and_published(client, lockstep) -> None:
@@ -183,7 +183,7 @@ def test_services_refuse_what_cannot_be_done(client, lockstep) -> None:
 
 def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it() -> None:
     process = start_node('world.substep:=0.003')
-    _, errors = process.communicate(timeout=30.0)
+    _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
     assert errors.count('\n') == 1
     assert 'world.substep' in errors
