@@ -167,7 +167,7 @@ def test_no_file_whatever_is_read_as_anything_but_pushes(
     span = st.integers(0, len(good))
     patches = st.tuples(span, span, st.binary(max_size=6))
 
-    @settings(max_examples=200, deadline=None)
+    @settings(max_examples=200)
     @given(st.binary(max_size=60) | patches)
     def check(change: bytes | tuple[int, int, bytes]) -> None:
         if isinstance(change, bytes):

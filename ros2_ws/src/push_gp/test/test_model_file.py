@@ -57,7 +57,7 @@ def test_no_damaged_file_is_read(path: Path, tmp_path_factory: pytest.TempPathFa
     damaged = tmp_path_factory.mktemp('damaged') / 'model.npz'
     places = st.integers(0, len(content) - 1)
 
-    @settings(max_examples=150, deadline=None)
+    @settings(max_examples=150)
     @given(place=places, other=places, flip=st.integers(1, 255), way=st.sampled_from(range(3)))
     def check(place: int, other: int, flip: int, way: int) -> None:
         changed = bytearray(content)

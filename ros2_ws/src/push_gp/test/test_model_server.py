@@ -29,7 +29,7 @@ def test_no_finite_push_into_the_face_gives_anything_but_finite_numbers(
         st.floats(-P_Y_LIMIT, P_Y_LIMIT), st.floats(0, np.pi, exclude_min=True, exclude_max=True)
     )
 
-    @settings(max_examples=100, deadline=None)
+    @settings(max_examples=100)
     @given(st.lists(pushes, max_size=20))
     def check(batch: list[tuple[float, float]]) -> None:
         p_y, beta = np.array(batch).reshape(-1, 2).T

@@ -33,7 +33,7 @@ ODD = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, -1.0]), SIZES)
 
 
 @pytest.mark.filterwarnings('ignore::RuntimeWarning')
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(
     controller=st.sampled_from(['gp', 'analytical']),
     scales=st.tuples(ODD, ODD),

@@ -158,8 +158,7 @@ TIPS = st.tuples(
 
 @settings(
     max_examples=40,
-    deadline=None,
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 @given(st.lists(st.tuples(POSES, TIPS), min_size=1, max_size=2))
 def test_whatever_is_seen_a_tick_ends_in_a_finite_command_or_a_stated_stop(
