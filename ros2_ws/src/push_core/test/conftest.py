@@ -1,4 +1,4 @@
-"""The square of the cell, its motion cone, and derivatives to compare with."""
+"""The square of the cell, its motion cone, and tracks as files."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -9,8 +9,6 @@ from push_core.frames import Array
 from push_core.motion_cone import MotionCone
 from push_core.slider import Slider
 
-Differences = Callable[[Callable[[Array], Array], Array, float], Array]
-
 
 @pytest.fixture(scope='session')
 def slider() -> Slider:
@@ -20,18 +18,6 @@ def slider() -> Slider:
 @pytest.fixture(scope='session')
 def cone(slider: Slider) -> MotionCone:
     return MotionCone(slider)
-
-
-@pytest.fixture(scope='session')
-def central_differences() -> Differences:
-    """Derivative of a vector function by each of its arguments, along a new last axis."""
-
-    def derivative(function: Callable[[Array], Array], point: Array, step: float) -> Array:
-        steps = step * np.eye(len(point))
-        changes = [function(point + one) - function(point - one) for one in steps]
-        return np.stack(changes, axis=-1) / (2.0 * step)
-
-    return derivative
 
 
 @pytest.fixture

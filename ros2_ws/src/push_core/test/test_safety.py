@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from push_core.actuator import ACTUATORS, Actuator
 from push_core.safety import (
@@ -124,19 +124,22 @@ def test_every_bit_has_a_name_and_no_other() -> None:
 
 
 @given(PAIRS, PAIRS, PAIRS)
+@example(np.zeros(2), np.array([1.0, 0.0]), np.array([1.0, 0.0]))
 def test_whatever_is_asked_the_command_is_finite_and_within_the_speed_limit(
     velocity, previous, position
 ) -> None:
     command, bits = limit(velocity, previous, position, LIMITS, PERIOD)
     assert np.isfinite(command).all()
     assert math.hypot(*command) <= LIMITS.speed * (1.0 + 1e-12)
-    assert bits == 0 or not np.array_equal(command, velocity)
+    # one limit may undo another, so that bits do not mean that the command differs
+    assert bits or np.array_equal(command, velocity)
 
 
 SPEEDS = st.floats(-0.3, 0.3)
 STRETCHES = st.lists(st.tuples(SPEEDS, SPEEDS, st.integers(1, 40)), min_size=1, max_size=8)
 
 
+@settings(max_examples=50)
 @given(STRETCHES, st.floats(-0.55, 0.55), st.floats(-0.55, 0.55))
 def test_a_robot_with_its_lag_never_leaves_the_workspace(stretches, x, y) -> None:
     limits, robot = SafetyLimits(), Actuator(ACTUATORS['irb120'])

@@ -1,7 +1,9 @@
 """Pushes to learn from: made with the motion cone and noise, and the measured ones."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
 from push_core.slider import Slider
 from push_gp.gp_model import GpModel
+from push_gp.hyperparameters import Hyperparameters
 from push_gp.learn import learned
 
 DISTANCE = 0.004
@@ -53,6 +56,25 @@ def measured() -> PushSet:
     if not folder.is_dir():
         pytest.skip(f'no measured pushes in {folder}; PUSH_DATA_DIR names their folder')
     return read_pushes(folder / 'square_4mm_pushes.csv')
+
+
+@pytest.fixture(scope='session')
+def scikit_learn() -> Callable[[Hyperparameters, np.ndarray, np.ndarray], Any]:
+    """Makes scikit-learn's process of given hyperparameters, pushes and displacements."""
+    # seconds to import, in every process that collects the tests
+    from sklearn import gaussian_process  # noqa: PLC0415
+
+    kernels = gaussian_process.kernels
+
+    def fitted(its: Hyperparameters, inputs: np.ndarray, outputs: np.ndarray) -> Any:
+        # their kernel has a half in its exponent, so lengths shrink by sqrt(2)
+        lengths = np.array(its.lengthscales) / np.sqrt(2.0)
+        kernel = kernels.ConstantKernel(its.signal_std**2) * kernels.RBF(lengths)
+        kernel += kernels.WhiteKernel(its.noise_std**2)
+        regressor = gaussian_process.GaussianProcessRegressor(kernel, alpha=0.0, optimizer=None)
+        return regressor.fit(inputs, outputs)
+
+    return fitted
 
 
 @pytest.fixture

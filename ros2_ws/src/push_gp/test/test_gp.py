@@ -1,3 +1,6 @@
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 from push_core.errors import InputError, RunError
@@ -5,20 +8,8 @@ from push_core.push_set import PushSet
 from push_gp.batched_mean import BatchedMean
 from push_gp.gp import GaussianProcess
 from push_gp.hyperparameters import Hyperparameters
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
 HYPERPARAMETERS = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
-
-
-def scikit_learn(gp: GaussianProcess) -> GaussianProcessRegressor:
-    """The same process: their kernel has a half in its exponent, so lengths shrink by sqrt(2)."""
-    its = gp.hyperparameters
-    kernel = ConstantKernel(its.signal_std**2) * RBF(np.array(its.lengthscales) / np.sqrt(2.0))
-    regressor = GaussianProcessRegressor(
-        kernel + WhiteKernel(its.noise_std**2), alpha=0.0, optimizer=None
-    )
-    return regressor.fit(gp.inputs, gp.outputs)
 
 
 @pytest.fixture
@@ -32,9 +23,10 @@ def points(queries: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
 
 
 def test_mean_and_variance_are_those_of_scikit_learn(
-    gp: GaussianProcess, points: np.ndarray
+    gp: GaussianProcess, points: np.ndarray, scikit_learn: Callable[..., Any]
 ) -> None:
-    mean, deviation = scikit_learn(gp).predict(points, return_std=True)
+    theirs = scikit_learn(HYPERPARAMETERS, gp.inputs, gp.outputs)
+    mean, deviation = theirs.predict(points, return_std=True)
     latent = deviation**2 - HYPERPARAMETERS.noise_std**2
     assert np.abs(gp.mean(points) - mean).max() < 1e-8 * np.abs(mean).max()
     assert np.abs(gp.variance(points) - latent).max() < 1e-8 * latent.max()

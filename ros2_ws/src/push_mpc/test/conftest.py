@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -38,12 +39,18 @@ class SmoothModel:
         return mean, np.stack([30.0 * by_a, by_b], axis=-1)
 
 
+@cache
+def _plan_of(settings: MpcSettings) -> Plan:
+    """The plan of some settings; cells only read it."""
+    return planned(settings)
+
+
 class Cell:
     """Plant and controller in one loop, without DDS."""
 
     def __init__(self, settings: MpcSettings, table: Table) -> None:
         self.plant = Plant(profile('irb120'), settings.slider)
-        self.controller = Controller(settings, settings.slider, planned(settings))
+        self.controller = Controller(settings, settings.slider, _plan_of(settings))
         self.controller.use(self.controller.prepared(table, 'table'))
         start = self.controller.plan.state[0]
         tip = settings.slider.tip_position(start[:3], start[3])
@@ -75,6 +82,12 @@ def model() -> SmoothModel:
 @pytest.fixture(scope='session')
 def eight(slider: Slider) -> Plan:
     return flat_plan(by_name('eight'), 0.08, slider, laps=1, period=0.01, overrun=1.0)
+
+
+@pytest.fixture(scope='session')
+def plan_of() -> Callable[[MpcSettings], Plan]:
+    """Plans, and knows the plan that a cell of the same settings has."""
+    return _plan_of
 
 
 @pytest.fixture(scope='session')

@@ -103,7 +103,8 @@ def test_every_command_keeps_the_limits(tracking) -> None:
 
 
 def test_without_compensation_it_plans_from_what_it_sees(tracking, table) -> None:
-    without = replace(SETTINGS, delay_compensation=False, good_poses=1)
+    chosen = {'delay_compensation': False, 'good_poses': 1, 'consistent_plan': False}
+    without = replace(SETTINGS, **chosen)
     controller = Controller(without, without.slider, tracking.controller.plan)
     controller.use(controller.prepared(table, 'table'))
     controller.arm()

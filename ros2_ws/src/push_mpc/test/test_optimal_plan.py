@@ -33,18 +33,19 @@ def polyline(path, corners, spacing=0.01) -> str:
 @pytest.fixture(scope='module')
 def corner(tmp_path_factory):
     path = tmp_path_factory.mktemp('track') / 'corner.csv'
-    return replace(SETTINGS, track=polyline(path, [(0, 0), (0.15, 0), (0.15, 0.15)]))
+    track = polyline(path, [(0, 0), (0.15, 0), (0.15, 0.15)])
+    return replace(SETTINGS, track=track, controller='analytical', consistent_plan=False)
 
 
 @pytest.fixture(scope='module')
-def plan(corner):
-    return planned(corner)
+def plan(corner, plan_of):
+    return plan_of(corner)
 
 
 def test_it_obeys_the_motion_equations_to_20_micrometres_a_tick(plan) -> None:
     """The velocity form, integrated anew over each period under the input of its start."""
     slider = SETTINGS.slider
-    for sample in range(0, len(plan.state) - 1, 5):
+    for sample in range(0, len(plan.state) - 1, 10):
 
         def motion(_time, state, held=plan.input[sample][None]):
             return rates(MotionCone(slider), state[None], held, slider.tip_x)[0]
@@ -66,7 +67,7 @@ def test_it_follows_a_sharp_corner_within_the_limits(plan) -> None:
 
 
 def test_the_corner_is_pushed_round_in_process(corner, make_cell) -> None:
-    cell = make_cell(replace(corner, controller='analytical'))
+    cell = make_cell(corner)
     cell.controller.arm()
     errors = []
     while (tick := cell.tick()).mode != Mode.DONE:

@@ -3,12 +3,14 @@ import json
 import pytest
 from push_core.settings import replaced
 from push_core.slider import Slider
+from push_sim import plant_speed
 from push_sim.bench import main
 from push_sim.plant_speed import memory_growth
 from push_sim.settings import profile
 
 
-def test_it_measures_and_says_so_in_one_json_object(capsys) -> None:
+def test_it_measures_and_says_so_in_one_json_object(capsys, monkeypatch) -> None:
+    monkeypatch.setattr(plant_speed, '_REPEATS', 1)
     assert main(['--engine', 'quasi_static', '--resets', '5', '--json']) == 0
     figures = json.loads(capsys.readouterr().out)
     assert figures['engine'] == 'quasi_static'
