@@ -16,7 +16,7 @@ MODULES = {
     'mpc_node': 'push_mpc.mpc_node',
     'recorder': 'push_bag.recorder',
 }
-PATIENCE = 5.0  # [s] for a node to end after SIGINT; one that is killed may leave half a bag
+PATIENCE = 10.0  # [s] for a node to end after SIGINT; one that is killed may leave half a bag
 _SET_PARENT_DEATH_SIGNAL = 1
 _LIBC = ctypes.CDLL(None)
 
