@@ -7,7 +7,6 @@ from collections.abc import Iterator
 import pytest
 from push_bag.report import REPORT_FILE, write_results
 
-playwright = pytest.importorskip('playwright.sync_api', reason='no playwright to drive a browser')
 BROWSER = shutil.which('chromium') or shutil.which('google-chrome')
 QUIET = ('--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run')
 
@@ -22,6 +21,7 @@ def complaints() -> list[str]:
 
 @pytest.fixture(scope='module')
 def page(perfect, complaints) -> Iterator[object]:
+    playwright = pytest.importorskip('playwright.sync_api', reason='no playwright to drive it')
     write_results(perfect)
     with playwright.sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=BROWSER, args=list(QUIET))
