@@ -25,14 +25,18 @@ STAGE_GROWTH = 4
 STARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.5, 1.0, 0.5], [2.0, 2.0, 2.0, 1.0], [1, 1, 0.3, 3]])
 """(k, 4) factors on the prior's centre where the search starts."""
 
-RESTARTS = np.log([[0.5, 1.0, 1.0, 1.0], [1.0, 0.2, 1.0, 0.9]])
+RESTARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.3, 1.0, 0.9]])
 """(k, 4) factors on the best so far where each later stage starts: more pushes may show more
-detail along the face, or over the directions, than fewer did."""
+detail than fewer did."""
+
+TRIAL = 10
+"""Iterations after which the best of the starts goes on alone."""
 
 BELIEF = 300
 """Pushes up to which the prior counts in full; it fades with the square of more, so that many
 pushes decide alone."""
 
+ENOUGH = 200
 HOPELESS = 1e25
 TOLERANCE = 1e-8
 """Of the log likelihood of a push, which is a few nats."""
@@ -69,11 +73,11 @@ def _stages(count: int) -> Iterator[slice]:
 
 
 def _best(loss: Loss, prior: Prior, starts: Array) -> Array:
-    found = [_climb(loss, prior, start) for start in starts]
-    best = min(found, key=lambda result: float(result.fun))
+    tried = [_climb(loss, prior, start, TRIAL) for start in starts]
+    best = min(tried, key=lambda result: float(result.fun))
     if best.fun >= HOPELESS:
         raise RunError('no hyperparameters explain these pushes')
-    return np.asarray(best.x)
+    return np.asarray(_climb(loss, prior, best.x, ENOUGH).x)
 
 
 def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
@@ -97,12 +101,12 @@ def _loss(inputs: Array, outputs: Array, prior: Prior) -> Loss:
     return loss
 
 
-def _climb(loss: Loss, prior: Prior, start: Array) -> OptimizeResult:
+def _climb(loss: Loss, prior: Prior, start: Array, iterations: int) -> OptimizeResult:
     return minimize(
         loss,
         np.clip(start, prior.low, prior.high),
         jac=True,
         method='L-BFGS-B',
         bounds=list(zip(prior.low, prior.high, strict=True)),
-        options={'ftol': TOLERANCE},
+        options={'ftol': TOLERANCE, 'maxiter': iterations},
     )

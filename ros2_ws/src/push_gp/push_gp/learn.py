@@ -1,7 +1,6 @@
 """From pushes to a model."""
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 
 from push_core.accuracy import OUTPUTS
 from push_core.push_set import PushSet
@@ -10,12 +9,8 @@ from threadpoolctl import threadpool_limits
 from push_gp.fit import fit
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel, residuals
-from push_gp.hyperparameters import Hyperparameters
 from push_gp.mean_function import ConeMean, MeanFunction, ZeroMean
 from push_gp.prior import OVER_CONE, OVER_ZERO, priors
-
-AT_ONCE = 2
-"""Outputs that are fitted at a time; each needs up to 32 bytes for each pair of pushes."""
 
 
 def learned(
@@ -41,18 +36,12 @@ def learned(
 def _learned(pushes: PushSet, mean: str, progress: Callable[[str], object]) -> GpModel:
     mean_function = _mean_function(pushes, mean)
     beliefs = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
+    found = []
     left = residuals(pushes, mean_function)
-    chances = priors(beliefs, pushes.distance)
-
-    def found(output: int) -> Hyperparameters:
-        result = fit(pushes.inputs, left[output], chances[output])
-        progress(OUTPUTS[output])
-        return result
-
-    # the rotation takes longest, so it goes first
-    with ThreadPoolExecutor(AT_ONCE) as pool:
-        fits = [*pool.map(found, reversed(range(len(OUTPUTS))))][::-1]
-    return GpModel.conditioned(pushes, mean_function, fits)
+    for name, outputs, prior in zip(OUTPUTS, left, priors(beliefs, pushes.distance), strict=True):
+        found.append(fit(pushes.inputs, outputs, prior))
+        progress(name)
+    return GpModel.conditioned(pushes, mean_function, found)
 
 
 def _mean_function(pushes: PushSet, mean: str) -> MeanFunction:
