@@ -16,7 +16,7 @@ class Weights:
     position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
     position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
     heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
-    contact: float = setting(30.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
+    contact: float = setting(1000.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
     normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
     tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
 

@@ -13,6 +13,8 @@ from push_core.frames import Array
 # Hermite basis on [0, 1]: rows are powers of t; columns value at 0, value at 1, slope at 0, at 1
 _HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=float)
 _EXPONENTS = np.array([1.0, 2.0, 3.0])
+# rate, or its change for a metre or a radian; those of a real push stay below a thousand
+_LARGEST = 1e9
 
 
 @dataclass(frozen=True)
@@ -45,10 +47,12 @@ class Table:
             jacobian: their derivatives (m * k, 3, 2) by [p_y, beta].
 
         Raises:
-            InputError: an answer is not finite.
+            InputError: an answer is not finite, or beyond all bounds.
         """
         if not (np.isfinite(mean).all() and np.isfinite(jacobian).all()):
             raise InputError('the model answered with numbers that are not finite')
+        if max(np.abs(mean).max(), np.abs(jacobian).max()) > _LARGEST:
+            raise InputError('by the model the object moves beyond all bounds')
         self._grid = grid
         self._low = np.array([grid.p_y[0], grid.beta[0]])
         self._step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])

@@ -23,8 +23,8 @@ from push_mpc.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 _USABLE_STATUS = (1, 2, 7)
 OSQP_SETTINGS = {
     'verbose': False,
-    'eps_abs': 1e-4,
-    'eps_rel': 1e-4,
+    'eps_abs': 5e-5,
+    'eps_rel': 5e-5,
     'alpha': 1.3,
     'rho': 1.0,
     'check_termination': 5,

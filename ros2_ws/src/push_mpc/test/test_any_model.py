@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from push_core.errors import InputError
 from push_core.motion_cone import MotionCone
@@ -39,6 +39,7 @@ ODD = st.one_of(st.floats(-1.0, 1.0), st.sampled_from([0.0, -1.0]), SIZES)
     scales=st.tuples(ODD, ODD),
     off=st.tuples(*(st.floats(-size, size) for size in (0.3, 0.3, 3.0, 0.06))),
 )
+@example(controller='analytical', scales=(1e307, 0.0), off=(0.0, 0.0, 0.0, 0.0))
 def test_a_tick_ends_in_a_finite_command_or_a_stated_stop(controller, scales, off) -> None:
     chosen = SETTINGS[controller]
     made = Controller(chosen, chosen.slider, PLANS[controller])

@@ -10,7 +10,7 @@ from push_sim.perturbation import Kind
 
 NU = 2
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
-STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 30.0])
+STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
 DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
