@@ -13,7 +13,7 @@ from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
 from tqdm import tqdm
 
-from push_gp.learning_curve import METHODS, SIZES, Place, learning_curve, sizes_within
+from push_gp.learning_curve import METHODS, Place, learning_curve, sizes_within
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -35,7 +35,6 @@ def parser() -> Parser:
         '--points',
         type=int,
         nargs='+',
-        default=SIZES,
         metavar='N',
         help='numbers of training pushes; default: 5 10 20 50 100 … as far as the data go',
     )

@@ -56,17 +56,18 @@ class Place:
         }
 
 
-def sizes_within(count: int, wanted: Sequence[int] = SIZES) -> list[int]:
-    """Those numbers of training pushes that `count` pushes allow.
+def sizes_within(count: int, wanted: Sequence[int] | None = None) -> list[int]:
+    """The wanted numbers of training pushes, or those of `SIZES` that `count` pushes allow.
 
     Raises:
-        InputError: there are none.
+        InputError: the pushes do not allow one that is wanted, or none.
     """
     most = count - _held_out(count)
-    fitting = [size for size in wanted if 1 <= size <= most]
-    if not fitting:
-        raise InputError(f'cannot train on {wanted[0]}: {count} pushes allow 1 to {most} of them')
-    return fitting
+    sizes = [size for size in SIZES if size <= most] if wanted is None else list(wanted)
+    wrong = [size for size in sizes or SIZES[:1] if not 1 <= size <= most]
+    if wrong:
+        raise InputError(f'cannot train on {wrong[0]}: {count} pushes allow 1 to {most} of them')
+    return sizes
 
 
 def learning_curve(

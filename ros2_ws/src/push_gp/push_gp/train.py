@@ -41,7 +41,7 @@ def parser() -> Parser:
     which.add_argument('--points', type=int, help='how many random pushes; default: all')
     which.add_argument('--subset', metavar='COLUMN', help='the pushes where COLUMN is 1')
     which.add_argument('--pick', choices=['die'], help='the five pushes nearest to those of a die')
-    arguments.add_argument('--seed', type=int, default=0, help='of the random choice')
+    arguments.add_argument('--seed', type=int, help='of the random choice (default 0)')
     arguments.add_argument(
         '--nested',
         action='store_true',
@@ -74,15 +74,19 @@ def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
     Raises:
         InputError: the set does not hold them.
     """
+    random = arguments.subset is None and not arguments.pick
+    if not random and (arguments.seed is not None or arguments.nested):
+        raise InputError('--seed and --nested are of a random choice, which was not asked for')
     if arguments.subset is not None:
         return subset_rows(pushes, arguments.subset)
     if arguments.pick:
         return die_rows(pushes)
-    if arguments.seed < 0:
-        raise InputError(f'--seed is {arguments.seed}, must not be negative')
+    seed = arguments.seed or 0
+    if seed < 0:
+        raise InputError(f'--seed is {seed}, must not be negative')
     points = len(pushes) if arguments.points is None else arguments.points
     choose = nested_rows if arguments.nested else random_rows
-    return choose(pushes, points, arguments.seed)
+    return choose(pushes, points, seed)
 
 
 def _trained(pushes: PushSet, mean: str) -> GpModel:

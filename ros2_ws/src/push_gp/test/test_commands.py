@@ -81,6 +81,7 @@ def test_evaluate_takes_the_motion_cone_as_a_model(data: Path, capsys: Capture) 
         (['pushes.csv', '-o', 'm.npz', '--points', '61'], 'cannot choose 61 of 60 pushes'),
         (['pushes.csv', '-o', 'm.npz', '--points', '0'], 'cannot choose 0 of 60 pushes'),
         (['pushes.csv', '-o', 'm.npz', '--seed', '-1'], 'must not be negative'),
+        (['pushes.csv', '-o', 'm.npz', '--pick', 'die', '--seed', '1'], 'of a random choice'),
         (['pushes.csv', '-o', 'm.npz', '--subset', 'subset_1'], 'there is no subset'),
         (['pushes.csv', '-o', 'none/m.npz'], 'there is no folder none'),
         (['pushes.csv', '-o', '.'], 'it is a folder'),
@@ -143,7 +144,7 @@ def test_evaluate_draws_a_page_that_needs_no_server(
 
 def test_curve_says_how_the_error_falls_with_the_pushes(data: Path, capsys: Capture) -> None:
     page = data.parent / 'curve.html'
-    options = ['--seeds', '2', '--points', '5', '30', '500', '--html', str(page), '--json']
+    options = ['--seeds', '2', '--points', '5', '30', '--html', str(page), '--json']
     assert curve.main([str(data), *options]) == 0
     points = json.loads(capsys.readouterr().out)['points']
     assert [(point['n'], point['method']) for point in points] == [
@@ -162,6 +163,7 @@ def test_curve_says_how_the_error_falls_with_the_pushes(data: Path, capsys: Capt
     [
         (['--seeds', '0'], 'at least 1'),
         (['--points', '60'], 'allow 1 to'),
+        (['--points', '5', '500'], 'cannot train on 500'),
         (['--html', 'none/page.html'], 'there is no folder none'),
     ],
 )
