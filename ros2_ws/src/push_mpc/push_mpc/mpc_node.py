@@ -27,9 +27,9 @@ from push_mpc.planning import planned
 from push_mpc.pose_pair import PosePair
 from push_mpc.recorder_watch import RecorderWatch
 from push_mpc.tabulation import Tabulated
+from push_mpc.watchdog import Watchdog
 
 LAST_WORD_TIMEOUT = 0.3  # [s] for the last command to arrive, and for the last state
-WATCHDOG_PERIOD = 0.01  # [s]
 REPORT_PERIOD = 1.0  # [s]
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
@@ -54,6 +54,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
         self._model = ModelClient(self, self._settings.slider.side, self._controller.prepared)
         self._recorder = RecorderWatch(self)
+        self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
         self._commands = self.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
         self._states = self.create_publisher(ControllerState, 'controller_state', qos.STATE)
@@ -87,7 +88,7 @@ class MpcNode(Node):  # type: ignore[misc]
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
         if self._settings.mode == 'realtime':
-            self.create_timer(WATCHDOG_PERIOD, self._watch, clock=steady)
+            self.create_timer(self._watchdog.period, self._watch, clock=steady)
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Answers a new pair of poses, exposed at a stamp [ns]; times are in seconds."""
@@ -144,8 +145,9 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _watch(self) -> None:
         """Holds still on old poses; the poses themselves drive everything else."""
+        slept = self._watchdog.slept(time.monotonic())
         age = self._poses.age
-        if self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
+        if slept or self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
             return
         if age > self._settings.pose_loss:
             self._halt(f'no pose for {1e3 * age:.0f} ms')
