@@ -29,7 +29,7 @@ from push_mpc.recorder_watch import RecorderWatch
 from push_mpc.tabulation import Tabulated
 from push_mpc.watchdog import Watchdog
 
-LAST_WORD_TIMEOUT = 0.3  # [s] for the last command to arrive, and for the last state
+LAST_WORD_TIMEOUT = 1.0  # [s] for the last command to arrive, and for the last state
 REPORT_PERIOD = 1.0  # [s]
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
