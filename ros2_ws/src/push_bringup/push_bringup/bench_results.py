@@ -19,7 +19,7 @@ from push_bringup.bench_options import check_positive
 from push_bringup.machine import git_revision, processor, versions
 
 EPILOG = """Example: bench results --measured square_4mm_pushes.csv -o docs/results.md
-About two hours on two cores, the last quarter by the clock: nothing else should run then. It can
+About an hour on two cores, the last quarter by the clock: nothing else should run then. It can
 be interrupted: laps that are in runs/bench_results are not pushed again (--fresh forgets them).
 """
 WORK = 'runs/bench_results'
