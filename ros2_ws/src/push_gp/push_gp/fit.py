@@ -30,13 +30,13 @@ RESTARTS = np.log([[1.0, 1.0, 1.0, 1.0], [0.5, 0.3, 1.0, 0.9]])
 detail than fewer did."""
 
 TRIAL = 10
-"""Iterations after which the best of the starts goes on alone."""
+ENOUGH = 200
+"""Iterations after which the best of the starts goes on alone, and with which it surely ends."""
 
 BELIEF = 300
 """Pushes up to which the prior counts in full; it fades with the square of more, so that many
 pushes decide alone."""
 
-ENOUGH = 200
 HOPELESS = 1e25
 TOLERANCE = 1e-8
 """Of the log likelihood of a push, which is a few nats."""
