@@ -68,9 +68,7 @@ class GpModel:
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """See `PushModel.evaluate`."""
-        expected, expected_jacobian = self.mean_function.evaluate(p_y, beta)
-        mean, jacobian = self._posterior_mean.evaluate(np.column_stack((p_y, beta)))
-        return expected + mean, expected_jacobian + jacobian
+        return self._posterior_mean.evaluate(np.column_stack((p_y, beta)))
 
     def variance(self, p_y: Array, beta: Array) -> Array:
         """See `PushModel.variance`."""
@@ -137,7 +135,7 @@ class GpModel:
 
     @cached_property
     def _posterior_mean(self) -> PosteriorMean:
-        return PosteriorMean(self.processes)
+        return PosteriorMean(self.processes, self.mean_function)
 
     def _hash(self) -> str:
         digest = hashlib.sha256(self.pushes.sha256().encode())

@@ -1,7 +1,7 @@
 """What a model file says of itself; apart, so that a look at a file needs no mathematics."""
 
 FORMAT = 'push_gp model'
-VERSION = 2
+VERSION = 3
 CONVENTIONS = {
     'units': 'metres and radians',
     'frame': 'body frame at the start of the push, x along the inward normal of the pushed face',

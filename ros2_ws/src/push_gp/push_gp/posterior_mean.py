@@ -7,7 +7,9 @@ from push_core.frames import Array
 from push_gp.batched_mean import BatchedMean
 from push_gp.domain import covers
 from push_gp.folded_process import Process
-from push_gp.polynomial_mean import PolynomialMean
+from push_gp.mean_function import MeanFunction
+from push_gp.polynomial_mean import summed_up
+from push_gp.polynomials import Polynomials, added
 
 POLYNOMIALS_PER_PUSH = 25
 """What costs as much as the covariances with one push."""
@@ -16,10 +18,11 @@ POLYNOMIALS_PER_PUSH = 25
 class PosteriorMean:
     """Over the pushes themselves where they are few, else over polynomials that sum them up."""
 
-    def __init__(self, processes: Sequence[Process]) -> None:
-        """Prepares both for processes that share their inputs."""
+    def __init__(self, processes: Sequence[Process], mean_function: MeanFunction) -> None:
+        """Prepares both for processes that share their inputs, over what was expected before."""
+        self._mean_function = mean_function
         self._over_pushes = BatchedMean(processes)
-        polynomials = PolynomialMean(processes)
+        polynomials = Polynomials(added(summed_up(processes), mean_function.coefficients))
         most = POLYNOMIALS_PER_PUSH * len(processes[0].outputs)
         self._summed_up = polynomials if polynomials.size <= most else None
 
@@ -27,4 +30,6 @@ class PosteriorMean:
         """Mean (m, k) and Jacobian (m, k, 2) at (m, 2) queries."""
         if self._summed_up is not None and covers(queries):
             return self._summed_up.evaluate(queries)
-        return self._over_pushes.evaluate(queries)
+        expected, expected_jacobian = self._mean_function.evaluate(*queries.T)
+        mean, jacobian = self._over_pushes.evaluate(queries)
+        return expected + mean, expected_jacobian + jacobian

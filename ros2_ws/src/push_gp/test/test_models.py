@@ -6,6 +6,7 @@ from push_core.errors import InputError, RunError
 from push_core.push_set import PushSet
 from push_core.slider import Slider
 from push_gp.analytical_model import AnalyticalModel
+from push_gp.domain import COVERED
 from push_gp.fit_cone import fitted_cone
 from push_gp.gp_model import GpModel
 from push_gp.learn import learned
@@ -131,3 +132,24 @@ def test_the_mean_over_a_cone_is_the_cone_without_its_edge() -> None:
     assert jump < 0.2 * sharp_jump
     away = np.array([0.0]), np.array([0.5 * np.pi])
     assert np.allclose(ConeMean(cone).evaluate(*away)[0], cone.evaluate(*away)[0], atol=1e-4)
+
+
+def test_the_mean_over_a_cone_is_that_of_normally_distributed_directions() -> None:
+    cone = AnalyticalModel()
+    generator = np.random.default_rng(6)
+    spread = np.linspace(-5.0, 5.0, 4001)
+    shares = np.exp(-0.5 * spread**2)
+    for p_y, beta in generator.uniform([-0.045, 0.1], [0.045, 3.0], (20, 2)):
+        means, _ = cone.evaluate(np.full(spread.size, p_y), beta + 0.2 * spread)
+        (mean,), _ = ConeMean(cone).evaluate(np.array([p_y]), np.array([beta]))
+        expected = shares @ means / shares.sum()
+        assert np.allclose(mean, expected, rtol=0.0, atol=5e-4 * cone.distance / 0.045)
+
+
+def test_the_mean_over_a_cone_does_not_jump_where_its_polynomials_end() -> None:
+    mean = ConeMean(AnalyticalModel())
+    edge = 0.5 * np.pi + COVERED[1]
+    inside, outside = (
+        mean.evaluate(np.array([0.01]), np.array([edge + step]))[0] for step in (-1e-9, 1e-9)
+    )
+    assert np.allclose(inside, outside, atol=5e-4 * mean.cone.distance / 0.045)
