@@ -25,6 +25,7 @@ VARIANTS: Mapping[str, Mapping[str, object]] = {
     'without model-error estimate': {'disturbance_length': 0.0},
     'without either': {'consistent_plan': False, 'disturbance_length': 0.0},
     'without delay prediction': {'delay_compensation': False},
+    'without weight on changes': {'weights.change': 0.0, 'force_weights.change': 0.0},
     '35 steps, the same length': {'horizon_steps': 35},
     '35 steps, 0.35 s': {'horizon_steps': 35, 'horizon_step': 0.01},
     'preset paper': {'preset': 'paper'},
@@ -43,6 +44,11 @@ class AblationRow:
     variant: str
     laps: tuple[tuple[Lap, ...], ...]
 
+    @property
+    def command_step(self) -> float:
+        """Change of the command from tick to tick, rms, median of the first experiment [mm/s]."""
+        return median(lap.command_step_mm_s for lap in self.laps[0])
+
     def as_json(self) -> dict[str, object]:
         """The row as `--json` prints it."""
         return {
@@ -50,6 +56,7 @@ class AblationRow:
             'completed': [sum(lap.completed for lap in own) for own in self.laps],
             'seeds': [len(own) for own in self.laps],
             'median_mm': [_finite(median(lap.mean_mm for lap in own)) for own in self.laps],
+            'command_step_mm_s': self.command_step,
         }
 
 
@@ -114,15 +121,20 @@ def _jobs(arguments: argparse.Namespace) -> list[LapJob]:
 
 
 def table(rows: Sequence[AblationRow]) -> str:
-    """The rows as a Markdown table: median error, and the laps where some were not completed."""
+    """The rows as a Markdown table: median error, and the laps where some were not completed.
+
+    The last column tells by how much the command changes from tick to tick in the first one.
+    """
     names = [
         f'{one.track} {1e3 * one.speed:.0f} mm/s'
         + ('' if one.perturbation == 'none' else f', {one.perturbation}')
         for one in EXPERIMENTS
     ]
+    names.append('command step')
     head = '| controller | ' + ' | '.join(names) + ' |\n' + '|---' * (len(names) + 1) + '|\n'
     return head + ''.join(
-        f'| {row.variant} | ' + ' | '.join(map(_cell, row.laps)) + ' |\n' for row in rows
+        f'| {row.variant} | {" | ".join(map(_cell, row.laps))} | {row.command_step:.0f} mm/s |\n'
+        for row in rows
     )
 
 

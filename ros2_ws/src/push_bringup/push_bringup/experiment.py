@@ -12,6 +12,7 @@ from statistics import fmean
 from typing import Any
 
 import numpy as np
+from push_core.frames import Array
 from push_gp.model_source import model_named
 from push_mpc.tick import FOLLOWING, Tick
 from push_sim.plant import Observation
@@ -104,6 +105,7 @@ class Lap:
         completed: it came to its end without a stop, the tip on the face, the object near.
         stop_reason: why it stopped before, empty if it did not.
         mean_mm, max_mm: tracking error; of what was pushed, if it stopped.
+        command_step_mm_s: change of the commanded velocity from tick to tick, rms.
         path_mm: where the object's centre was, at most PATH_POINTS places [x, y].
     """
 
@@ -111,6 +113,7 @@ class Lap:
     stop_reason: str
     mean_mm: float
     max_mm: float
+    command_step_mm_s: float
     path_mm: tuple[tuple[float, float], ...]
 
     @classmethod
@@ -143,6 +146,7 @@ class _Watched:
         self._plan = cell.controller.plan
         self._errors: list[float] = []
         self._path: list[tuple[float, float]] = []
+        self._commands: list[Array] = []
         self._last: Tick | None = None
 
     def on_tick(self, observation: Observation, tick: Tick, _tick_ms: float) -> None:
@@ -153,12 +157,13 @@ class _Watched:
         x, y = (observation.object_pose[:2] * 1e3).tolist()
         self._errors.append(float(np.hypot(x - 1e3 * wanted[0], y - 1e3 * wanted[1])))
         self._path.append((round(x, 2), round(y, 2)))
+        self._commands.append(tick.velocity)
         self._last = tick
 
     def lap(self, reason: str, half: float) -> Lap:
         """The lap, with why it stopped; `half` a side of the square [m]."""
         if self._last is None or self._last.state is None:
-            return Lap(False, reason or 'never tracked', float('inf'), float('inf'), ())
+            return Lap(False, reason or 'never tracked', float('inf'), float('inf'), 0.0, ())
         on_face = self._last.gap <= LARGEST_END_GAP and abs(self._last.state[3]) <= half
         near = self._errors[-1] <= LARGEST_END_ERROR
         step = -(-len(self._path) // PATH_POINTS)
@@ -167,5 +172,10 @@ class _Watched:
             stop_reason=reason,
             mean_mm=fmean(self._errors),
             max_mm=max(self._errors),
+            command_step_mm_s=self._command_step(),
             path_mm=tuple(self._path[::step]),
         )
+
+    def _command_step(self) -> float:
+        steps = np.diff(self._commands, axis=0)
+        return 1e3 * float(np.sqrt(np.mean(np.sum(steps**2, axis=1)))) if len(steps) else 0.0

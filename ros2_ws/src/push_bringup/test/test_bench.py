@@ -23,11 +23,12 @@ from push_bringup.table_page import table_page
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
-LAP = Lap(True, '', 1.5, 4.0, ((0.0, 1.0), (2.0, 3.0)))
+LAP = Lap(True, '', 1.5, 4.0, 3.0, ((0.0, 1.0), (2.0, 3.0)))
 
 
 def with_error(millimetres: float, completed: bool = True) -> Lap:
-    return Lap(completed, '' if completed else 'left the face', millimetres, millimetres, ())
+    reason = '' if completed else 'left the face'
+    return Lap(completed, reason, millimetres, millimetres, 3.0, ())
 
 
 def test_a_lap_is_judged_by_its_error_and_its_end() -> None:

@@ -126,7 +126,9 @@ class SplineTrack(Track):
         rough = np.interp(s, self._s, self._heading_at)
         heading = np.arctan2(dy, dx)
         heading += 2.0 * math.pi * np.round((rough - heading) / (2.0 * math.pi))
-        return x, y, heading, (dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
+        with np.errstate(invalid='ignore'):  # a cusp has no curvature: NaN
+            curvature = (dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
+        return x, y, heading, curvature
 
     def _derivative(self, u: Array, order: int) -> Array:
         """Value or derivative (n, 2) of the spline at parameters (n,)."""

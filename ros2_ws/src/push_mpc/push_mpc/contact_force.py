@@ -9,9 +9,10 @@ turn rolls on the turning face besides: d(p_y)/dt = slip + omega * radius.
 from dataclasses import dataclass
 
 import numpy as np
+from push_core import point_contact
 from push_core.frames import Array
 from push_core.limit_surface import LimitSurface
-from push_core.motion_cone import MotionCone, contact_jacobian
+from push_core.motion_cone import contact_jacobian
 from push_core.slider import Slider
 
 from push_mpc.dynamics import disturbed, to_rates
@@ -60,14 +61,23 @@ class ContactForce:
 
     def of_velocity(self, p_y: Array, velocity: Array) -> Array:
         """The inputs (n, 3) that happen where the tip moves with velocities (n, 2) [m/s]."""
-        v_n, v_t = velocity.T
-        speed = np.hypot(v_n, v_t)
-        unit_force = MotionCone(self.slider).force_of_velocity(p_y, np.arctan2(v_n, v_t))
-        inputs = np.zeros((len(p_y), 3))
-        inputs[:, :2] = speed[:, None] * unit_force / self._weights[0]
-        twist = self._twist(p_y, inputs)
-        inputs[:, 2] = v_t - twist[:, 1] - self.slider.p_x * twist[:, 2]
-        return inputs
+        each = zip(p_y.tolist(), *velocity.T.tolist(), strict=True)
+        return np.array([self.input_of(*one) for one in each])
+
+    def input_of(self, p_y: float, v_n: float, v_t: float) -> Array:
+        """The input (3,) that happens where the tip moves with one velocity [m/s]."""
+        slider = self.slider
+        matrix = point_contact.mobility(slider.p_x, p_y, slider.support_radius**2)
+        side = point_contact.slip_sign(matrix, slider.friction_pusher, v_n, v_t)
+        if side:
+            friction = side * slider.friction_pusher
+            normal, tangential = point_contact.sliding_force(matrix, friction, v_n)
+        else:
+            normal, tangential = point_contact.sticking_force(matrix, v_n, v_t)
+        _, along, tt = matrix
+        slip = v_t - along * normal - tt * tangential
+        scale = 1.0 / self._weights[0]
+        return np.array([normal * scale, tangential * scale, slip])
 
     def of_speeds(self, speeds: Array) -> Array:
         """The inputs (n, 3) whose force moves an object that does not turn at speeds (n, 4).

@@ -230,7 +230,13 @@ class Controller:
         # a tip that is already off the face must not make the problem infeasible
         opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
         move = self._steering.solve(
-            model.programs, state, deviation, reference_time, opening, self._disturbance.rate
+            model.programs,
+            state,
+            deviation,
+            reference_time,
+            opening,
+            self._disturbance.rate,
+            rotation(state[2]).T @ self._sent,
         )
         if not move.usable:
             self.stop(f'the solver found no input (status {move.status})')

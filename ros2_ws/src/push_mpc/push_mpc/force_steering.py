@@ -43,12 +43,14 @@ class ForceSteering:
         self.mode = ContactMode.STICKING
         weights = settings.force_weights
         state_weights = [weights.position_x, weights.position_y, weights.heading, weights.contact]
+        input_weights = [weights.normal, weights.tangential, weights.slip]
         self.solvers = tuple(
             TrackingQP(
                 settings.horizon_steps,
                 self._space,
                 np.array(state_weights),
-                np.array([weights.normal, weights.tangential, weights.slip]),
+                np.array(input_weights),
+                weights.change * (_SPEED / self._space.scale) ** 2,
             )
             for _ in FAMILY
         )
@@ -74,12 +76,14 @@ class ForceSteering:
         time: float,
         opening: float,
         disturbance: Array,
+        sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        solutions = [each.solve(deviation, opening, disturbance) for each in self.solvers]
+        nominal = programs.plan.at(time)[1]
+        before = self._motion.input_of(state[3], *sent.tolist()) - nominal
+        solutions = [each.solve(deviation, opening, disturbance, before) for each in self.solvers]
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
-        force = programs.plan.at(time)[1] + best.inputs[0]
-        velocity = self._motion.tip_velocity(state[3], force)
+        velocity = self._motion.tip_velocity(state[3], nominal + best.inputs[0])
         iterations = sum(solution.iterations for solution in solutions)
         return Move(velocity, best.status, iterations, best.usable, best.states)
 

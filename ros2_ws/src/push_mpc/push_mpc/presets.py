@@ -22,6 +22,7 @@ _PAPER_WEIGHTS = Weights(
     contact=3000.0,
     normal=10.0,
     tangential=0.001,
+    change=0.0,
 )
 _PAPER_FORCE_WEIGHTS = ForceWeights(
     position_x=6000.0,
@@ -31,6 +32,7 @@ _PAPER_FORCE_WEIGHTS = ForceWeights(
     normal=0.1,
     tangential=0.001,
     slip=0.001,
+    change=0.0,
 )
 _PAPER = {
     'horizon_steps': 35,

@@ -11,7 +11,7 @@ from push_mpc.recontact import RecontactSettings
 
 @dataclass(frozen=True)
 class Weights:
-    """Diagonals of Q and R: cost per squared deviation from the nominal."""
+    """Diagonals of Q and R: cost per squared deviation from the nominal, and of the change."""
 
     position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
     position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
@@ -19,6 +19,9 @@ class Weights:
     contact: float = setting(1000.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
     normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
     tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
+    change: float = setting(
+        5.0, 'change of the velocity since the last command', unit='s^2/m^2', low=0.0, high=1e9
+    )
 
     def __post_init__(self) -> None:
         validate(self)
@@ -35,6 +38,13 @@ class ForceWeights:
     normal: float = setting(0.1, 'normal force f_n', unit='1/N^2', low=1e-9, high=1e9)
     tangential: float = setting(0.01, 'tangential force f_t', unit='1/N^2', low=1e-9, high=1e9)
     slip: float = setting(1.0, 'slip of the tip', unit='s^2/m^2', low=1e-9, high=1e9)
+    change: float = setting(
+        40.0,
+        'change of slip, and of the speeds that the forces make, since the last command',
+        unit='s^2/m^2',
+        low=0.0,
+        high=1e9,
+    )
 
     def __post_init__(self) -> None:
         validate(self)

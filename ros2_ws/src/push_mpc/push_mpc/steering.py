@@ -70,6 +70,7 @@ class Steering(Protocol):
         time: float,
         opening: float,
         disturbance: Array,
+        sent: Array,
     ) -> Move:
         """Solves the prepared programs.
 
@@ -80,4 +81,5 @@ class Steering(Protocol):
             time: of the plan [s].
             opening: by how much the bounds of p_y are wider than prepared [m].
             disturbance: twist beside the model's for each metre of travel (3,).
+            sent: velocity of the tip that was sent last, in the body frame (2,) [m/s].
         """

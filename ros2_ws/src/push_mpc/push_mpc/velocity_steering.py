@@ -31,6 +31,7 @@ class VelocitySteering:
             SPACE,
             np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
             np.array([weights.normal, weights.tangential]),
+            np.full(2, weights.change),
         )
         self.solvers = (solver,)
 
@@ -53,10 +54,12 @@ class VelocitySteering:
         time: float,
         opening: float,
         disturbance: Array,
+        sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        solution = self.solvers[0].solve(deviation, opening, disturbance)
-        velocity = programs.plan.at(time)[1] + solution.inputs[0]
+        nominal = programs.plan.at(time)[1]
+        solution = self.solvers[0].solve(deviation, opening, disturbance, sent - nominal)
+        velocity = nominal + solution.inputs[0]
         return Move(
             velocity, solution.status, solution.iterations, solution.usable, solution.states
         )

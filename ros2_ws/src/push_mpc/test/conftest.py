@@ -187,12 +187,12 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
         prepare(self, stages, window, first)
 
     def keep_solution(
-        self: TrackingQP, start: Array, opening: float, disturbance: Array
+        self: TrackingQP, start: Array, opening: float, disturbance: Array, before: Array
     ) -> Solution:
-        solution = solve(self, start, opening, disturbance)
+        solution = solve(self, start, opening, disturbance, before)
         a, b, drift, target, limits = prepared[self]
         under = drift @ [1.0, *disturbance], target @ disturbance
-        problems.append(((a, b, *under, limits, start.copy(), opening), solution))
+        problems.append(((a, b, *under, limits, start.copy(), opening, before), solution))
         return solution
 
     monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
@@ -211,6 +211,7 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
     def solve(
         state_weights: Array,
         input_weights: Array,
+        change_weights: Array,
         limited: Array,
         transition: Array,
         effect: Array,
@@ -219,6 +220,7 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         limits: tuple[Array, Array],
         start: Array,
         opening: float,
+        before: Array,
     ) -> Array:
         free, forced = unrolled(transition, effect, drift, start)
         steps, nx, nu = effect.shape
@@ -228,6 +230,8 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         forced /= unit
         hessian = 2.0 * (forced.T * weights @ forced + np.eye(nu * steps))
         gradient = 2.0 * (forced.T @ (weights * (free - aim)) - unit * target[:, nx:].ravel())
+        hessian[:nu, :nu] += 2.0 * np.diag(change_weights / input_weights)
+        gradient[:nu] -= 2.0 * change_weights * before / unit[:nu]
         rows = np.vstack([forced[3::nx], np.kron(np.eye(steps), limited) / unit])
         shift = np.concatenate([free[3::nx], np.zeros(len(limited) * steps)])
         low, high = (

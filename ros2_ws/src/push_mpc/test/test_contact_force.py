@@ -60,3 +60,10 @@ def test_where_it_sticks_the_contact_moves_with_the_tip(slider) -> None:
     place = np.array([slider.p_x, p_y])
     velocity = (moved[:2] + rotation(moved[2]) @ place - place) / brief
     assert motion.tip_velocity(p_y, force) == pytest.approx(velocity, abs=1e-6)
+
+
+@pytest.mark.parametrize('velocity', [[0.0, 0.0], [0.0, 0.1], [-0.05, 0.1], [-0.05, -0.1]])
+def test_a_tip_that_rests_or_leaves_has_an_input_as_well(slider, velocity) -> None:
+    motion = ContactForce(slider)
+    inputs = motion.input_of(0.02, *velocity)
+    assert motion.tip_velocity(0.02, inputs) == pytest.approx(velocity, abs=1e-15)

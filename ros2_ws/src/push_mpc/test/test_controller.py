@@ -43,6 +43,22 @@ def test_it_follows_the_plan_with_the_lag_of_the_robot(tracking) -> None:
     assert tick.mode == Mode.TRACKING
 
 
+@pytest.mark.parametrize('controller', ['gp', 'analytical'])
+def test_a_weight_on_changes_makes_the_commands_smooth(make_cell, controller) -> None:
+    free = replace(
+        SETTINGS,
+        weights=replace(SETTINGS.weights, change=0.0),
+        force_weights=replace(SETTINGS.force_weights, change=0.0),
+    )
+    steps = []
+    for chosen in (free, SETTINGS):
+        cell = make_cell(replace(chosen, controller=controller))
+        cell.controller.arm()
+        commands = [cell.tick().velocity for _ in range(300)][100:]
+        steps.append(np.sqrt(np.mean(np.diff(commands, axis=0) ** 2)))
+    assert steps[1] < 0.6 * steps[0]
+
+
 def test_the_prediction_comes_true(tracking) -> None:
     told = [tracking.tick() for _ in range(60)]
     predicted, later = told[0].predicted, told[12].state

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from push_core.limit_surface import LimitSurface
 from push_core.motion_cone import ContactMode
 from push_core.tracks import by_name
 from push_mpc.contact_force import ContactForce
@@ -21,6 +22,8 @@ STATE_WEIGHTS = np.array(
     [WEIGHTS.position_x, WEIGHTS.position_y, WEIGHTS.heading, WEIGHTS.contact]
 )
 INPUT_WEIGHTS = np.array([WEIGHTS.normal, WEIGHTS.tangential, WEIGHTS.slip])
+SPEEDS = np.array([LimitSurface.of(SETTINGS.slider).weights[0]] * 2 + [1.0])  # that inputs make
+CHANGE_WEIGHTS = WEIGHTS.change * SPEEDS**2
 
 
 @pytest.fixture
@@ -43,7 +46,9 @@ def test_each_program_finds_the_first_input_of_the_other_solver(
     friction, speed = slider.friction_pusher, ContactForce(slider).tip_velocity
     limited = np.array([[1, 0, 0], [-friction, 1, 0], [friction, 1, 0], [0, 0, 1]])
     for problem, solution in recorded[:: 3 * 5 + 1]:
-        expected = independent_inputs(STATE_WEIGHTS, INPUT_WEIGHTS, limited, *problem)
+        expected = independent_inputs(
+            STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS, limited, *problem
+        )
         off = speed(0.0, solution.inputs[0]) - speed(0.0, expected[0])
         assert np.abs(off).max() < 3e-4
 
@@ -72,7 +77,8 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     family.prepare(programs, window)
     deviation = np.array([0.0, 0.0, 0.0, p_y])
     state = plan.state[0] + deviation
-    move = family.solve(programs, state, deviation, 0.0, 0.0, np.zeros(3))
+    sent = plan.input[0]
+    move = family.solve(programs, state, deviation, 0.0, 0.0, np.zeros(3), sent)
     assert (move.usable, family.mode) == (True, expected)
     force = ContactForce(slider).of_velocity(np.array([p_y]), move.velocity[None])[0]
     assert np.sign(np.round(force[2], 6)) == expected

@@ -12,6 +12,8 @@ NU = 2
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
+CHANGE_WEIGHTS = np.array([5.0, 5.0])
+BEFORE = np.array([0.01, -0.02])
 DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
 
@@ -31,7 +33,9 @@ def test_every_first_input_is_that_of_the_other_solver_to_1e_4(
 ) -> None:
     at_a_bound = 0
     for problem, solution in recorded[::4]:
-        expected = independent_inputs(STATE_WEIGHTS, INPUT_WEIGHTS, np.eye(NU), *problem)
+        expected = independent_inputs(
+            STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS, np.eye(NU), *problem
+        )
         assert np.abs(solution.inputs[0] - expected[0]).max() < 1e-4
         low, high = (limit[:, 1:] for limit in problem[4])
         at_a_bound += np.any((expected < low + 1e-6) | (expected > high - 1e-6))
@@ -65,11 +69,11 @@ def stages_of(problem):
 
 
 def solved(problem, times=1, opening=0.0):
-    qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS)
+    qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
     made = stages_of(problem)
     for _ in range(times):
         qp.prepare(made, np.arange(6), made)
-        solution = qp.solve(problem[5], opening, DISTURBANCE)
+        solution = qp.solve(problem[5], opening, DISTURBANCE, BEFORE)
     return solution
 
 
@@ -79,9 +83,16 @@ def test_without_bounds_it_is_the_least_squares_solution(problem, unrolled) -> N
     aim = target @ DISTURBANCE
     later = np.concatenate([aim[1:, :NX], aim[-1:, :NX]]).ravel()
     root = np.sqrt(np.tile(STATE_WEIGHTS, 6))
-    rows = np.vstack([root[:, None] * forced, np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6)))])
+    change = np.sqrt(CHANGE_WEIGHTS)
+    rows = np.vstack(
+        [
+            root[:, None] * forced,
+            np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6))),
+            np.eye(NU, 6 * NU) * change[:, None],
+        ]
+    )
     preferred = np.sqrt(INPUT_WEIGHTS) * aim[:, NX:]
-    right = np.concatenate([root * (later - free), preferred.ravel()])
+    right = np.concatenate([root * (later - free), preferred.ravel(), change * BEFORE])
     expected = np.linalg.lstsq(rows, right)[0].reshape(6, NU)
     assert np.allclose(solved(problem).inputs, expected, rtol=0, atol=1e-6)
 
