@@ -13,6 +13,7 @@ from push_gp.learn import learned
 from push_gp.server_settings import ServerSettings
 from push_mpc.controller import Mode, Tick
 from push_mpc.node_settings import mpc_settings
+from push_mpc.planning import planned
 from push_sim.collect import collect
 from push_sim.node_settings import node_settings
 from push_sim.plant import Observation
@@ -33,7 +34,8 @@ def lap(model: GpModel) -> Lap:
     def run(**changes: object) -> tuple[bool, float]:
         mpc = replace(mpc_settings('irb120'), mode='lockstep', **changes)
         sim = node_settings('irb120')
-        cell = InProcessCell(CellParameters(sim, ServerSettings(), mpc, RecorderSettings()), model)
+        parameters = CellParameters(sim, ServerSettings(), mpc, RecorderSettings())
+        cell = InProcessCell(parameters, model, planned(mpc))
         errors: list[float] = []
 
         def on_tick(seen: Observation, tick: Tick, _milliseconds: float) -> None:

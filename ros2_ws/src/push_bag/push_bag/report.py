@@ -8,12 +8,13 @@ from typing import Any
 
 from push_core.atomic_file import write_atomically
 from push_core.page import page, section
+from push_core.strict_json import json_text
 
 from push_bag.animation import animation_data, animation_figure
 from push_bag.deferred_figure import deferred, drawing_library, drawing_script
 from push_bag.lap_figure import lap_figure
 from push_bag.run_reader import read_run
-from push_bag.score import score_json, score_series
+from push_bag.score import score_series
 from push_bag.score_table import messages_line, score_rows
 from push_bag.time_figure import time_figure
 from push_bag.timing_figure import timing_figure
@@ -38,7 +39,7 @@ def write_results(folder: Path) -> dict[str, Any]:
     """
     run = read_run(folder)
     score = score_series(run)
-    write_atomically(folder / SCORE_FILE, score_json(score).encode())
+    write_atomically(folder / SCORE_FILE, json_text(score).encode())
     write_atomically(folder / REPORT_FILE, report_html([(run, score)]).encode())
     return score
 

@@ -5,14 +5,13 @@ The formulas stand where the numbers are computed: tracking.py, contact.py, timi
 and the object within END_DISTANCE of the reference's end.
 """
 
-import json
 import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from push_core.errors import InputError
+from push_core.strict_json import finite
 from push_msgs.msg import ControllerState
 
 from push_bag.contact import contact, loss_intervals, on_face_at_end
@@ -46,11 +45,6 @@ def score_run(folder: Path) -> dict[str, Any]:
     return score_series(read_run(folder))
 
 
-def score_json(score: Mapping[str, Any]) -> str:
-    """The score as text for scripts: strict JSON, without NaN."""
-    return json.dumps(score, indent=2, allow_nan=False) + '\n'
-
-
 def score_series(run: RunSeries) -> dict[str, Any]:
     """The score of a run that was read already.
 
@@ -70,7 +64,8 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         'limited': limited(run),
         'messages': message_counts(run),
     }
-    return {name: finite(value) for name, value in score.items()}
+    found: dict[str, Any] = finite(score)
+    return found
 
 
 def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
@@ -95,15 +90,6 @@ def holds(run: RunSeries) -> int:
     """Times that the controller held still for want of a fresh pose."""
     holding = run.state('mode') == ControllerState.HOLDING
     return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
-
-
-def finite(value: Any) -> Any:
-    """The same value with None in the place of every number that is not finite."""
-    if isinstance(value, dict):
-        return {name: finite(each) for name, each in value.items()}
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _verdict(run: RunSeries, reference: Reference, tracking: Tracking) -> dict[str, Any]:

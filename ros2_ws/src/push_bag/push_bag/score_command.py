@@ -1,7 +1,6 @@
 """`push_bag score RUN…`: the score of runs as a table, as JSON, as a report, held to bounds."""
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,12 +9,13 @@ from typing import Any
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
+from push_core.strict_json import json_text
 from tqdm import tqdm
 
 from push_bag.figures import bound, check_bounds
 from push_bag.run_reader import read_run
 from push_bag.runs_table import Scores, comparison_table, runs_object, runs_table
-from push_bag.score import score_json, score_run, score_series
+from push_bag.score import score_run, score_series
 from push_bag.score_table import score_table
 
 EPILOG = """
@@ -88,9 +88,9 @@ def _text(arguments: argparse.Namespace, scores: Scores) -> str:
         return comparison_table(scores)
     if len(scores) == 1:
         score = scores[0][1]
-        return score_json(score) if arguments.json else score_table(score)
+        return json_text(score) if arguments.json else score_table(score)
     if arguments.json:
-        return json.dumps(runs_object(scores), indent=2, allow_nan=False) + '\n'
+        return json_text(runs_object(scores))
     return runs_table(scores)
 
 

@@ -6,9 +6,10 @@ import math
 import numpy as np
 import pytest
 from push_bag.report import write_results
-from push_bag.score import score_json, score_run
+from push_bag.score import score_run
 from push_bag.score_command import main
 from push_core.errors import InputError
+from push_core.strict_json import json_text
 from push_msgs.msg import ControllerState
 
 
@@ -138,7 +139,7 @@ def test_a_run_that_never_tracked_has_nulls_and_no_nan(record):
     score = score_run(record(modes=lambda _tick: ControllerState.ARMED))
     assert score['tracking_error_mm']['mean'] is None
     assert score['solve_ms']['p99'] is None
-    assert 'NaN' not in score_json(score)
+    assert 'NaN' not in json_text(score)
 
 
 def test_facts_and_reference_name_the_run(perfect):

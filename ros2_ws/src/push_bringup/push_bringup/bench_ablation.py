@@ -1,7 +1,6 @@
 """`bench ablation`: what each part of the controller is worth, with one part off at a time."""
 
 import argparse
-import json
 import math
 import sys
 from collections.abc import Mapping, Sequence
@@ -10,6 +9,7 @@ from pathlib import Path
 from statistics import median
 
 from push_core.command_line import Parser, run_command
+from push_core.strict_json import json_text
 from push_gp.analytical_model import ANALYTICAL
 from push_sim.settings import PROFILES
 
@@ -55,7 +55,7 @@ class AblationRow:
             'variant': self.variant,
             'completed': [sum(lap.completed for lap in own) for own in self.laps],
             'seeds': [len(own) for own in self.laps],
-            'median_mm': [_finite(median(lap.mean_mm for lap in own)) for own in self.laps],
+            'median_mm': [median(lap.mean_mm for lap in own) for own in self.laps],
             'command_step_mm_s': self.command_step,
         }
 
@@ -103,7 +103,7 @@ def work(arguments: argparse.Namespace) -> None:
 
         write_page(arguments.html, 'What each part is worth', text.splitlines(), ())
     if arguments.json:
-        text = json.dumps({'rows': [row.as_json() for row in rows]}, indent=2) + '\n'
+        text = json_text({'rows': [row.as_json() for row in rows]})
     sys.stdout.write(text)
 
 
@@ -143,11 +143,6 @@ def _cell(laps: tuple[Lap, ...]) -> str:
     error = median(lap.mean_mm for lap in laps)
     text = f'{error:.2f} mm' if math.isfinite(error) else 'never tracked'
     return text if completed == len(laps) else f'{text} ({completed} of {len(laps)} laps)'
-
-
-def _finite(value: float) -> float | None:
-    """A number as JSON knows it."""
-    return value if math.isfinite(value) else None
 
 
 if __name__ == '__main__':

@@ -4,7 +4,6 @@ The paper's figure: nested random draws of a large set of pushes, and the five o
 """
 
 import argparse
-import json
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
+from push_core.strict_json import json_text
 from push_gp.analytical_model import ANALYTICAL
 from push_gp.learn import learned
 from push_gp.mean_function import MEAN_FUNCTIONS
@@ -195,7 +195,7 @@ def _points(choices: Sequence[Choice], laps: Sequence[Lap]) -> list[Point]:
 
 def _print_json(points: Iterable[Point]) -> None:
     block = {'points': [point.as_json() for point in points]}
-    sys.stdout.write(json.dumps(block, indent=2) + '\n')
+    sys.stdout.write(json_text(block))
 
 
 def _table(points: Iterable[Point], analytical: Lap) -> str:

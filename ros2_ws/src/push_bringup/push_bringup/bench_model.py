@@ -2,7 +2,6 @@
 
 import argparse
 import importlib.util
-import json
 import multiprocessing
 import resource
 import sys
@@ -17,6 +16,7 @@ from push_core.command_line import Parser, run_command
 from push_core.errors import InputError, RunError
 from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
+from push_core.strict_json import json_text
 from push_gp.sampling import nested_rows
 from tqdm import tqdm
 
@@ -90,7 +90,7 @@ def work(arguments: argparse.Namespace) -> None:
     standings = list(_standings(training, rest))
     if arguments.json:
         block = {'points': len(training), 'rivals': [asdict(each) for each in standings]}
-        sys.stdout.write(json.dumps(block, indent=2) + '\n')
+        sys.stdout.write(json_text(block))
     else:
         sys.stdout.write(table(standings))
 

@@ -11,6 +11,7 @@ from statistics import median
 
 from push_core.command_line import Parser, run_command
 from push_core.errors import RunError
+from push_core.strict_json import json_text
 from push_gp.analytical_model import ANALYTICAL
 from tqdm import tqdm
 
@@ -109,7 +110,7 @@ def work(arguments: argparse.Namespace) -> int:
         for case in cases
     ]
     if arguments.json:
-        sys.stdout.write(json.dumps({'rows': [row.as_json() for row in rows]}, indent=2) + '\n')
+        sys.stdout.write(json_text({'rows': [row.as_json() for row in rows]}))
     else:
         sys.stdout.write(table(rows))
     return 0 if all(row.completed == arguments.runs for row in rows) else 1

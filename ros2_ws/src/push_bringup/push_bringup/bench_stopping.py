@@ -1,7 +1,6 @@
 """`bench stopping`: how long a cell takes to end when it is interrupted in the middle of a lap."""
 
 import argparse
-import json
 import signal
 import subprocess
 import sys
@@ -15,6 +14,7 @@ import numpy as np
 from push_bag.run_reader import read_run
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError, RunError
+from push_core.strict_json import json_text
 from push_msgs.msg import ControllerState
 from tqdm import tqdm
 
@@ -56,7 +56,7 @@ def work(arguments: argparse.Namespace) -> int:
     seconds = [stopping_time() for _ in runs]
     told = {'runs': len(seconds), 'median_s': median(seconds), 'max_s': max(seconds)}
     if arguments.json:
-        sys.stdout.write(json.dumps(told, indent=2) + '\n')
+        sys.stdout.write(json_text(told))
     else:
         sys.stdout.write(text(seconds))
     return 0

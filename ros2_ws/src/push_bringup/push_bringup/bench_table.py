@@ -1,7 +1,6 @@
 """`bench table`: the paper's experiments beside the paper's numbers."""
 
 import argparse
-import json
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -10,6 +9,7 @@ from statistics import fmean, median
 
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
+from push_core.strict_json import json_text
 from push_gp.analytical_model import ANALYTICAL
 from push_gp.model_file import load_model
 from push_sim.settings import PROFILES
@@ -113,7 +113,7 @@ def work(arguments: argparse.Namespace) -> int:
 
         write_atomically(arguments.html, table_page(rows).encode())
     if arguments.json:
-        sys.stdout.write(json.dumps({'rows': [row.as_json() for row in rows]}, indent=2) + '\n')
+        sys.stdout.write(json_text({'rows': [row.as_json() for row in rows]}))
     else:
         sys.stdout.write(table(rows))
     return 0 if all(row.completed == len(row.laps) for row in rows) else 1

@@ -1,7 +1,6 @@
 """`ros2 run push_bringup bench timing`: the controller's quadratic programs, by every solver."""
 
 import argparse
-import json
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -12,6 +11,7 @@ import numpy as np
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
 from push_core.frames import Array
+from push_core.strict_json import json_text
 from push_gp.analytical_model import ANALYTICAL
 from push_mpc.stages import NX
 from push_mpc.tracking_qp import Problem
@@ -94,7 +94,7 @@ def work(arguments: argparse.Namespace) -> int:
     if arguments.json:
         solvers = [timing.as_json() for timing in timings]
         told = {'controller': arguments.controller, 'ticks': len(ticks), 'solvers': solvers}
-        sys.stdout.write(json.dumps(told, indent=2) + '\n')
+        sys.stdout.write(json_text(told))
     else:
         sys.stdout.write(table(timings))
     if arguments.html:

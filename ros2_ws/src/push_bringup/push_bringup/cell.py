@@ -17,6 +17,7 @@ from push_core.errors import InputError, RunError
 from push_core.tracks import TRACKS
 from push_gp.analytical_model import ANALYTICAL
 from push_gp.sealed_archive import read_sealed
+from push_mpc.nominal import Plan
 from push_mpc.planning import planned
 from push_mpc.presets import PRESETS
 from push_sim.settings import PROFILES
@@ -32,8 +33,11 @@ EPILOG = """examples:
   ros2 run push_bringup cell -p mpc_node.weights.contact:=100.0 -o /tmp/runs
 
 The last line printed is the folder of the run: bag, score.json, report.html, logs.
-Exit status: 0 the lap was completed, 1 it was not, 2 the command was wrong.
+Exit status: 0 the lap was completed, 1 it was not, 2 the command was wrong, 130 interrupted.
 """
+
+
+OFF_AT_END = 'object or pusher are not where they should be at its end; see the report'
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -110,20 +114,28 @@ def work(arguments: argparse.Namespace) -> int:
     with tempfile.TemporaryDirectory(prefix='push_cell_') as scratch:
         inputs = Path(scratch)
         parameters = resolved(request, installed_config('cell.yaml'), folder, inputs)
-        write_inputs(request, parameters, planned(parameters.mpc), inputs)
-        reason = _run(request, parameters, inputs)
-        keep_logs(inputs, folder)
+        plan = planned(parameters.mpc)
+        write_inputs(request, parameters, plan, inputs)
+        try:
+            reason = _run(request, parameters, plan, inputs)
+        except KeyboardInterrupt:
+            if folder.is_dir():
+                sys.stderr.write(f'cell: what was recorded until now is in {folder}\n')
+            raise
+        finally:
+            keep_logs(inputs, folder)
     return _finish(folder, reason)
 
 
-def _run(request: Request, parameters: CellParameters, inputs: Path) -> str:
+def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path) -> str:
     """Runs the cell; returns why it ended before its end, empty if it did not."""
     if request.mode == 'inprocess':
         from push_gp.model_source import model_named
 
         from push_bringup.in_process_run import recorded_in_process
 
-        return recorded_in_process(parameters, model_named(request.model, parameters.gp.slider))
+        model = model_named(request.model, parameters.gp.slider)
+        return recorded_in_process(parameters, model, plan)
     from push_bringup.node_graph import run_graph
 
     return run_graph(inputs / 'params.yaml', request, inputs)
@@ -146,11 +158,25 @@ def _request(arguments: argparse.Namespace) -> Request:
         seed=arguments.seed,
         mode=arguments.mode,
         output=arguments.output,
-        namespace=arguments.namespace.strip('/'),
+        namespace=_namespace(arguments.namespace),
         overrides=overrides,
         preset=arguments.preset,
         params=arguments.params,
     )
+
+
+def _namespace(text: str) -> str:
+    """Without slashes around it; most cells have none, and need no rclpy here."""
+    name = text.strip('/')
+    if name:
+        from rclpy.exceptions import InvalidNamespaceException
+        from rclpy.validate_namespace import validate_namespace
+
+        try:
+            validate_namespace(f'/{name}')
+        except InvalidNamespaceException:
+            raise InputError(f'--namespace {text!r}: takes letters, digits, _ and /') from None
+    return name
 
 
 def _model(arguments: argparse.Namespace) -> str:
@@ -188,7 +214,7 @@ def _finish(folder: Path, reason: str) -> int:
         raise RunError(f'{reason or error}; what was recorded is in {folder}') from error
     sys.stdout.write(score_table(score))
     if not score['completed']:
-        sys.stderr.write(f'cell: the run was not completed: {reason or "see the report"}\n')
+        sys.stderr.write(f'cell: the run was not completed: {reason or OFF_AT_END}\n')
     sys.stdout.write(f'{folder}\n')
     return 0 if score['completed'] and not reason else 1
 

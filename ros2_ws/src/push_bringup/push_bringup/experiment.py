@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from push_core.frames import Array
 from push_gp.model_source import model_named
+from push_mpc.planning import planned
 from push_mpc.tick import FOLLOWING, Tick
 from push_sim.plant import Observation
 
@@ -130,7 +131,8 @@ def pushed(job: LapJob) -> Lap:
         InputError: the model cannot be read, a parameter is wrong, or the track cannot be pushed.
     """
     parameters = job.parameters()
-    cell = InProcessCell(parameters, model_named(job.model, parameters.gp.slider))
+    model = model_named(job.model, parameters.gp.slider)
+    cell = InProcessCell(parameters, model, planned(parameters.mpc))
     watched = _Watched(cell)
     try:
         reason = cell.run(watched.on_tick)

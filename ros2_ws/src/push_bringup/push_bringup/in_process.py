@@ -7,7 +7,7 @@ import numpy as np
 from push_gp.model import PushModel
 from push_mpc.controller import Controller, Mode, Tick
 from push_mpc.domain import Domain
-from push_mpc.planning import planned
+from push_mpc.nominal import Plan
 from push_mpc.surrogate import Table
 from push_mpc.tabulation import Answer, Question, Subject, tabulation
 from push_node.stamps import to_seconds
@@ -26,10 +26,11 @@ class InProcessCell:
         controller: what pushes.
     """
 
-    def __init__(self, parameters: CellParameters, model: PushModel) -> None:
+    def __init__(self, parameters: CellParameters, model: PushModel, plan: Plan) -> None:
+        """Brings plant and controller together for a plan of these parameters."""
         mpc = parameters.mpc
         self.plant = Plant(parameters.sim, parameters.sim.slider)
-        self.controller = Controller(mpc, mpc.slider, planned(mpc))
+        self.controller = Controller(mpc, mpc.slider, plan)
         self._slider = mpc.slider
         self._seed = parameters.sim.seed
         table = tabulated(model, mpc.slider.side)

@@ -3,6 +3,7 @@
 from push_bag.recorder import open_bag
 from push_gp.model import PushModel
 from push_mpc.controller import Tick
+from push_mpc.nominal import Plan
 from push_sim.plant import Observation
 from tqdm import tqdm
 
@@ -11,7 +12,7 @@ from push_bringup.in_process import InProcessCell
 from push_bringup.in_process_record import InProcessRecord
 
 
-def recorded_in_process(parameters: CellParameters, model: PushModel) -> str:
+def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan) -> str:
     """Pushes once along the track and records it.
 
     Returns:
@@ -20,7 +21,7 @@ def recorded_in_process(parameters: CellParameters, model: PushModel) -> str:
     Raises:
         RunError: the bag cannot be written.
     """
-    cell = InProcessCell(parameters, model)
+    cell = InProcessCell(parameters, model, plan)
     duration = cell.controller.plan.duration
     with (
         open_bag(parameters.recorder) as writer,

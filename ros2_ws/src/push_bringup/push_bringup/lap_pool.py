@@ -38,10 +38,11 @@ class LapStore:
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.open('w' if fresh else 'a', encoding='utf-8').close()
-            lines = path.read_text(encoding='utf-8').splitlines()
+            text = path.read_text(encoding='utf-8', errors='replace')
         except OSError as error:
             raise InputError(f'cannot write {path}: {error.strerror}') from error
-        for line in lines:
+        self._is_torn = bool(text) and not text.endswith('\n')
+        for line in text.splitlines():
             self._take(line)
 
     def find(self, job: LapJob) -> Lap | None:
@@ -53,7 +54,9 @@ class LapStore:
         self._laps[job.key] = lap
         line = json.dumps({'key': job.key, 'lap': asdict(lap)}, separators=(',', ':'))
         with self._path.open('a', encoding='utf-8') as file:
-            file.write(line + '\n')
+            # on a line of its own, also after one that a kill cut off
+            file.write(f'\n{line}\n' if self._is_torn else f'{line}\n')
+        self._is_torn = False
 
     def _take(self, line: str) -> None:
         try:

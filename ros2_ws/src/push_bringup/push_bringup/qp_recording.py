@@ -4,6 +4,7 @@ from pathlib import Path
 
 from push_gp.model_source import model_named
 from push_mpc.controller import Mode, Tick
+from push_mpc.planning import planned
 from push_mpc.tracking_qp import Problem
 from push_sim.perturbation import Kind, Perturbation
 from push_sim.plant import Observation
@@ -32,7 +33,8 @@ def recorded(controller: str, model: str, seed: int) -> list[tuple[Problem, ...]
     """
     request = lap_request(controller, model, seed)
     parameters = resolved(request, installed_config('cell.yaml'), Path('unused'), Path('unused'))
-    cell = InProcessCell(parameters, model_named(model, parameters.gp.slider))
+    known = model_named(model, parameters.gp.slider)
+    cell = InProcessCell(parameters, known, planned(parameters.mpc))
     problems: list[tuple[Problem, ...]] = []
     with tqdm(total=cell.controller.plan.time.size, desc='recording', disable=None) as bar:
 

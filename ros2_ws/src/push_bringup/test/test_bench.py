@@ -51,7 +51,10 @@ def test_finished_laps_outlive_the_process_and_a_torn_line(tmp_path) -> None:
     LapStore(path).add(JOB, LAP)
     with path.open('a') as file:
         file.write('{"key": "cut o')
-    assert LapStore(path).find(JOB) == LAP
+    again, other = LapStore(path), LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=1)
+    assert again.find(JOB) == LAP
+    again.add(other, LAP)
+    assert LapStore(path).find(other) == LAP
     assert LapStore(path, fresh=True).find(JOB) is None
 
 

@@ -39,6 +39,7 @@ def refused(model_file, tmp_path, capsys):
         (('-p', 'world.friction_ground:=-0.1'), 'friction_ground is -0.1, must be between'),
         (('-p', 'delay_compensation:=maybe'), 'takes bool'),
         (('-p', 'speed'), 'NAME:=VALUE'),
+        (('--namespace', '!!'), 'letters, digits'),
     ],
 )
 def test_a_bad_argument_is_named(refused, arguments, said) -> None:
@@ -48,10 +49,10 @@ def test_a_bad_argument_is_named(refused, arguments, said) -> None:
 @pytest.mark.parametrize(
     ('content', 'said'),
     [
-        ('', 'at least 4 different points'),
+        ('', 'at least 4 points'),
         ('x,y\n0,0\n0.1,abc\n', 'track.csv:3'),
         ('0,0\n0.1,nan\n', 'track.csv:2'),
-        ('0,0\n0,0\n0,0\n0,0\n', 'at least 4 different points'),
+        ('0,0\n0,0\n0,0\n0,0\n', 'at least 4 points'),
     ],
 )
 def test_a_bad_track_is_named_with_its_place(refused, tmp_path, content, said) -> None:

@@ -11,6 +11,7 @@ from push_bringup.qp_recording import lap_request
 from push_bringup.qp_solvers import IN_SI_UNITS, SOLVERS, exact
 from push_gp.analytical_model import AnalyticalModel
 from push_mpc.controller import Mode
+from push_mpc.planning import planned
 from push_sim.perturbation import Kind, Perturbation
 
 
@@ -22,7 +23,7 @@ def recorded(request, tmp_path_factory):
     flat = {'mpc_node.consistent_plan': False}
     wanted = replace(lap_request(request.param, 'analytical', 0), overrides=flat)
     parameters = resolved(wanted, installed_config('cell.yaml'), folder, folder)
-    cell = InProcessCell(parameters, AnalyticalModel())
+    cell = InProcessCell(parameters, AnalyticalModel(), planned(parameters.mpc))
     ticks = []
 
     def on_tick(_observation, tick, _tick_ms) -> None:

@@ -18,6 +18,7 @@ from push_gp.model_file import load_model
 from push_gp.model_server import ModelServer
 from push_gp.model_source import model_named
 from push_mpc.controller import Mode, Tick
+from push_mpc.planning import planned
 from push_node.stamps import to_seconds, to_stamp
 from rclpy.serialization import serialize_message
 
@@ -41,7 +42,7 @@ def eventful(parameters, model_file, tmp_path_factory):
         model_file.name: model_file.read_bytes(),
     }
     model = model_named(str(model_file), parameters.gp.slider)
-    cell = InProcessCell(parameters, model)
+    cell = InProcessCell(parameters, model, planned(parameters.mpc))
     with BagWriter(folder, {}, attached) as writer:
         record = InProcessRecord(writer, cell.plant, cell.controller)
         record.head(parameters.mpc, model.info)
@@ -150,7 +151,8 @@ def grown(parameters, model_file, tmp_path_factory):
         model_file.name: model_file.read_bytes(),
     }
     model = load_model(model_file)
-    cell, server = InProcessCell(parameters, model), ModelServer(model, parameters.gp.max_points)
+    cell = InProcessCell(parameters, model, planned(parameters.mpc))
+    server = ModelServer(model, parameters.gp.max_points)
     with BagWriter(folder, {}, attached) as writer:
         record = InProcessRecord(writer, cell.plant, cell.controller)
         record.head(parameters.mpc, model.info)

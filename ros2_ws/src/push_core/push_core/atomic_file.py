@@ -12,26 +12,35 @@ def check_place(path: Path) -> None:
     """Refuses a file that could not be written, before the work for it is done.
 
     Raises:
-        InputError: its folder is missing, or it is a folder itself.
+        InputError: its folder is missing or closed to us, or it is something else than a file.
     """
     if path.is_dir():
         raise InputError(f'cannot write {path}: it is a folder')
-    if not path.parent.is_dir():
+    if path.exists() and not path.is_file():
+        raise InputError(f'cannot write {path}: it is a device or a pipe, not a file')
+    folder = path.resolve().parent
+    if not folder.is_dir():
         raise InputError(f'cannot write {path}: there is no folder {path.parent}')
+    try:
+        # only trying tells: not even root may write everywhere
+        tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise InputError(f'cannot write {path}: {error.strerror}') from error
 
 
 def write_atomically(path: Path, content: bytes) -> None:
     """Writes a file beside its place and moves it there; a reader never sees half of it.
 
     Args:
-        path: where the file shall be; an existing one is replaced.
+        path: where the file shall be; an existing one is replaced, a link followed.
         content: all of it.
 
     Raises:
-        InputError: the folder is missing or closed to us, or the disk is full.
+        InputError: as `check_place`, or the disk is full.
     """
+    check_place(path)
     try:
-        _write_and_move(path, content)
+        _write_and_move(path.resolve(), content)
     except OSError as error:
         raise InputError(f'cannot write {path}: {error.strerror}') from error
 

@@ -107,6 +107,8 @@ def checked(name: str, value: Any, like: Any, described: Described) -> Any:
     """
     if isinstance(like, float) and isinstance(value, int) and not isinstance(value, bool):
         value = float(value)
+    if isinstance(like, str) and type(value) in (int, float):
+        value = f'{value:g}'
     if type(value) is not type(like):
         raise InputError(f'parameter {name} takes {type(like).__name__}, not {value!r}')
     if described.choices and value not in described.choices:

@@ -5,6 +5,7 @@ through given points.
 """
 
 import math
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,6 +20,10 @@ SQUARE_RADIUS = 0.08
 SQUARE_STRAIGHT = 0.24
 LINE_LENGTH = 0.5
 MAX_KNOTS = 800
+SAME_PLACE = 1e-4  # [m] between two points of a file that count as one
+SHORTEST = 0.02  # [m] of a track from a file
+FARTHEST = 1e6  # [m] from the origin; beyond it a file is in other units, or broken
+_HEADING = re.compile(r'\s*x(_m| ?\[m\])?\s*,\s*y(_m| ?\[m\])?\s*', re.IGNORECASE)
 
 
 class Track(ABC):
@@ -219,8 +224,17 @@ def from_csv(path: Path) -> Track:
     """
     points = _distinct(_read_points(path))
     if len(points) < 4:
-        raise InputError(f'{path}: a track needs at least 4 different points, found {len(points)}')
-    return SplineTrack(path.stem, _thinned(points))
+        raise InputError(
+            f'{path}: a track needs at least 4 points that are {1e3 * SAME_PLACE:g} mm apart, '
+            f'found {len(points)}'
+        )
+    track = SplineTrack(path.stem, _thinned(points))
+    if track.length < SHORTEST:
+        raise InputError(
+            f'{path}: a track of {1e3 * track.length:.2g} mm is too short to be pushed; '
+            'x and y are in metres'
+        )
+    return track
 
 
 def _read_points(path: Path) -> Array:
@@ -232,15 +246,23 @@ def _read_points(path: Path) -> Array:
         raise InputError(f'{path}: not a text file') from error
     rows = []
     for number, text in enumerate(lines, start=1):
-        if not text.strip() or (number == 1 and _is_heading(text)):
+        if not text.strip() or (number == 1 and _is_heading(text, path)):
             continue
         rows.append(_point(text, f'{path}:{number}'))
     return np.array(rows).reshape(-1, 2)
 
 
-def _is_heading(text: str) -> bool:
-    """Whether no field is a number, not even `nan`, which would be a fault."""
-    return not any(map(_is_number, text.split(',')))
+def _is_heading(text: str, path: Path) -> bool:
+    """Whether no field is a number, not even `nan`, which would be a fault.
+
+    Raises:
+        InputError: it is a heading of something else than x and y in metres.
+    """
+    if any(map(_is_number, text.split(','))):
+        return False
+    if not _HEADING.fullmatch(text):
+        raise InputError(f'{path}:1: the heading {text!r} is not x,y or x_m,y_m')
+    return True
 
 
 def _is_number(text: str) -> bool:
@@ -258,15 +280,20 @@ def _point(text: str, place: str) -> tuple[float, float]:
         raise InputError(f'{place}: expected two numbers x,y in metres, not {text!r}') from error
     if not (math.isfinite(x) and math.isfinite(y)):
         raise InputError(f'{place}: x and y must be finite, not {text!r}')
+    if max(abs(x), abs(y)) > FARTHEST:
+        raise InputError(f'{place}: {text!r} is beyond {FARTHEST:g} m; x and y are in metres')
     return x, y
 
 
 def _distinct(points: Array) -> Array:
-    """Without points that repeat the one before."""
-    if len(points) == 0:
-        return points
-    moved = np.any(np.diff(points, axis=0) != 0.0, axis=1)
-    return np.asarray(points[np.concatenate([[True], moved])])
+    """Without points at the place of the one before, from where a spline could turn anywhere."""
+    kept: list[Array] = []
+    for point in points:
+        if not kept or math.hypot(*(point - kept[-1])) >= SAME_PLACE:
+            kept.append(point)
+    if len(kept) > 1:
+        kept[-1] = points[-1]  # a closed track ends exactly where it began
+    return np.array(kept).reshape(-1, 2)
 
 
 def _thinned(points: Array) -> Array:

@@ -3,7 +3,7 @@ from dataclasses import FrozenInstanceError, dataclass
 
 import pytest
 from push_core.errors import InputError
-from push_core.settings import flatten, nested, replaced, setting, validate
+from push_core.settings import Described, checked, flatten, nested, replaced, setting, validate
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,11 @@ def test_changes_make_a_new_object_and_leave_the_old_one() -> None:
     new = replaced(old, {'engine.power': 3.0, 'colour': 'blue'})
     assert (new.engine.power, new.colour, new.wheels) == (3.0, 'blue', 4)
     assert old == Car()
+
+
+def test_a_number_will_do_for_a_word() -> None:
+    word = Described('heading', '', -math.inf, math.inf, ())
+    assert [checked('heading', value, 'free', word) for value in (30, 2.5)] == ['30', '2.5']
 
 
 def test_a_whole_number_will_do_for_a_float() -> None:

@@ -34,7 +34,9 @@ def test_an_open_track_begins_and_ends_at_its_points(write_track) -> None:
     assert (x.tolist(), y.tolist()) == (pytest.approx([0.0, 0.4]), pytest.approx([0.0, 0.0]))
 
 
-@pytest.mark.parametrize('heading', ['', 'x,y\n', ' x [m], y [m]\n', '\ufeffx,y\n', '\n\n'])
+@pytest.mark.parametrize(
+    'heading', ['', 'x,y\n', ' x [m], y [m]\n', 'x_m,y_m\n', '\ufeffx,y\n', '\n\n']
+)
 def test_a_heading_a_byte_order_mark_and_blank_lines_do_no_harm(write_track, heading) -> None:
     with_heading = from_csv(write_track(POINTS, heading))
     assert with_heading.length == from_csv(write_track(POINTS)).length
@@ -43,6 +45,31 @@ def test_a_heading_a_byte_order_mark_and_blank_lines_do_no_harm(write_track, hea
 def test_points_that_repeat_do_no_harm(write_track) -> None:
     repeated = from_csv(write_track(np.repeat(POINTS, 3, axis=0)))
     assert repeated.length == from_csv(write_track(POINTS)).length
+
+
+@pytest.mark.parametrize('aside', [0.0, 1e-15, 5e-5])
+def test_points_at_the_same_place_do_not_bend_the_track(write_track, aside) -> None:
+    straight = np.array([[0.0, 0.0], [0.1, 0.0], [0.1, aside], [0.2, 0.0], [0.3, 0.0], [0.4, 0.0]])
+    track = from_csv(write_track(straight))
+    _, y, _, _ = track.at(np.linspace(0.0, track.length, 200))
+    assert (track.length, np.abs(y).max()) == (pytest.approx(0.4, abs=1e-6), pytest.approx(0.0))
+
+
+def test_a_closed_track_stays_closed_where_its_last_points_lie_close(write_track) -> None:
+    angle = np.append(np.linspace(0.0, 2.0 * math.pi, 40), 2.0 * math.pi)
+    angle[-2] -= 1e-4
+    circle = 0.2 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    circle[-1] = circle[0]
+    assert from_csv(write_track(circle)).closed
+
+
+@pytest.mark.parametrize('heading', ['y,x\n', 'x_mm,y_mm\n', 'time,x\n'])
+def test_a_heading_of_something_else_is_refused(write_track, heading) -> None:
+    assert 'is not x,y or x_m,y_m' in refusal(write_track(POINTS, heading))
+
+
+def test_a_track_too_short_to_be_pushed_is_refused(write_track) -> None:
+    assert 'too short to be pushed' in refusal(write_track(0.01 * POINTS))
 
 
 def test_very_many_points_are_thinned_by_arc_length(write_track) -> None:
@@ -64,6 +91,7 @@ def test_very_many_points_are_thinned_by_arc_length(write_track) -> None:
         ('x,y', 'expected two numbers x,y in metres'),
         ('nan,0.1', 'x and y must be finite'),
         ('0.4,inf', 'x and y must be finite'),
+        ('1e20,0.1', 'beyond 1e+06 m'),
     ],
 )
 def test_a_bad_row_is_refused_with_its_file_and_line(tmp_path, row, fault) -> None:
@@ -84,7 +112,7 @@ def test_not_a_number_in_the_first_line_is_no_heading(tmp_path) -> None:
 def test_too_few_points_are_refused(tmp_path, content, found) -> None:
     path = tmp_path / 'few.csv'
     path.write_text(content)
-    assert f'at least 4 different points, found {found}' in refusal(path)
+    assert f'at least 4 points that are 0.1 mm apart, found {found}' in refusal(path)
 
 
 def test_a_missing_file_a_folder_and_a_binary_file_are_refused(tmp_path) -> None:

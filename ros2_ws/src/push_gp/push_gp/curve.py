@@ -1,7 +1,6 @@
 """`push_gp curve`: how the error falls with the number of training pushes."""
 
 import argparse
-import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.push_csv import read_pushes
 from push_core.push_set import PushSet
+from push_core.strict_json import json_text
 from tqdm import tqdm
 
 from push_gp.learning_curve import METHODS, Place, learning_curve, sizes_within
@@ -62,8 +62,7 @@ def work(arguments: argparse.Namespace) -> None:
 
         write_curve_page(arguments.html, places, lines)
     block = {'pushes': len(pushes), 'points': [place.as_json() for place in places]}
-    told = json.dumps(block, indent=2) if arguments.json else '\n'.join(lines)
-    sys.stdout.write(f'{told}\n')
+    sys.stdout.write(json_text(block) if arguments.json else '\n'.join([*lines, '']))
 
 
 def _places(pushes: PushSet, sizes: Sequence[int], seeds: int) -> list[Place]:

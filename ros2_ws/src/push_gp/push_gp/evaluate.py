@@ -1,7 +1,6 @@
 """`push_gp evaluate`: how well a model tells a file of measured pushes."""
 
 import argparse
-import json
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ from push_core.command_line import Parser, run_command
 from push_core.frames import Array
 from push_core.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.push_csv import read_pushes
+from push_core.strict_json import json_text
 
 from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluation, rollout_evaluation
 from push_gp.model import PushModel
@@ -45,7 +45,7 @@ def work(arguments: argparse.Namespace) -> None:
         check_place(arguments.html)
     model = model_named(arguments.model)
     told = (_told_long if holds_long_pushes(arguments.data) else _told)(model, arguments)
-    sys.stdout.write(f'{told}\n')
+    sys.stdout.write(told)
 
 
 def _told(model: PushModel, arguments: argparse.Namespace) -> str:
@@ -56,7 +56,7 @@ def _told(model: PushModel, arguments: argparse.Namespace) -> str:
         from push_gp.evaluation_page import write_evaluation_page  # noqa: PLC0415
 
         write_evaluation_page(arguments.html, model, pushes, list(_table(found)))
-    return json.dumps(found.as_json(), indent=2) if arguments.json else '\n'.join(_table(found))
+    return json_text(found.as_json()) if arguments.json else '\n'.join([*_table(found), ''])
 
 
 def _told_long(model: PushModel, arguments: argparse.Namespace) -> str:
@@ -66,8 +66,8 @@ def _told_long(model: PushModel, arguments: argparse.Namespace) -> str:
 
         write_rollout_page(arguments.html, found, list(_rollout_table(found)))
     if arguments.json:
-        return json.dumps(found.as_json(), indent=2)
-    return '\n'.join(_rollout_table(found))
+        return json_text(found.as_json())
+    return '\n'.join([*_rollout_table(found), ''])
 
 
 def _rollout_table(found: RolloutEvaluation) -> Iterator[str]:

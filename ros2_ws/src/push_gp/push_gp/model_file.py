@@ -51,8 +51,10 @@ def load_model(path: Path) -> GpModel:
         model = _model(header, arrays)
     except (InputError, KeyError, TypeError, ValueError) as error:
         raise InputError(f'{path}: is an inconsistent model file ({error!r})') from error
-    if model.info.model_hash != header['model_sha256']:
-        raise InputError(f'{path}: its content does not match its model_sha256; train it again')
+    told = _header(model)
+    for name in ('conventions', 'training_set_sha256', 'model_sha256'):
+        if header.get(name) != told[name]:
+            raise InputError(f'{path}: its content does not match its {name}; train it again')
     return model
 
 

@@ -116,6 +116,18 @@ def other_noise(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
     header['hyperparameters']['dx']['noise_std'] *= 2.0
 
 
+def without_hash(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
+    del header['model_sha256']
+
+
+def other_training_set(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
+    header['training_set_sha256'] = '0' * 64
+
+
+def other_units(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
+    header['conventions']['units'] = 'millimetres'
+
+
 def negative_length(header: dict[str, Any], _arrays: dict[str, np.ndarray]) -> None:
     header['hyperparameters']['dy']['lengthscales'][0] = -1.0
 
@@ -144,6 +156,9 @@ def push_outside(_header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None
         (other_version, f'format version {VERSION + 1}'),
         (other_format, 'no model file of push_gp'),
         (other_noise, 'does not match its model_sha256'),
+        (without_hash, 'does not match its model_sha256'),
+        (other_training_set, 'does not match its training_set_sha256'),
+        (other_units, 'does not match its conventions'),
         (negative_length, 'positive'),
         (word_for_a_number, 'inconsistent'),
         (infinite_weight, 'not finite'),

@@ -87,25 +87,30 @@ class ModelClient:
         self._client.call_async(request_of(question)).add_done_callback(on_answer)
 
     def _take(self, wish: _Wish, future: Future) -> None:
-        """In the worker: goes on with the conversation, or ends it with a model."""
+        """In the worker, which would keep an error to itself."""
         try:
-            answer = future.result()
-            if not answer.success:
-                self.problem = f'the model server answered: {answer.message}'
-            elif answer.model_id == wish.info.model_id:
+            self._go_on(wish, future.result())
+        except (PushError, ValueError) as error:
+            self.problem = f'the model cannot be used: {error}'
+        except Exception as error:  # noqa: BLE001
+            self.problem = f'the model cannot be used: {error!r}'
+
+    def _go_on(self, wish: _Wish, answer: Predict.Response) -> None:
+        """Goes on with the conversation, or ends it with a model."""
+        if not answer.success:
+            self.problem = f'the model server answered: {answer.message}'
+        elif answer.model_id == wish.info.model_id:
+            try:
                 question = wish.conversation.send(answer_of(answer, wish.info.distance))
+            except StopIteration as done:
+                self._finish(wish.info.model_id, done.value)
+            else:
                 wish.asked = -PATIENCE
                 wish.question = question
-        except StopIteration as done:
-            self._finish(wish.info.model_id, done.value)
-        except (PushError, ValueError) as error:
-            self.problem = f'the model cannot be used: {error}'
 
     def _finish(self, model_id: str, tabulated: Tabulated) -> None:
-        try:
-            self.ready = self._prepare(tabulated.table, model_id)
-        except (PushError, ValueError) as error:
-            self.problem = f'the model cannot be used: {error}'
-            return
+        prepared = self._prepare(tabulated.table, model_id)
         self.table, self.problem = tabulated, ''
+        # last, for it is what the node's thread looks for
+        self.ready = prepared
         self._log.info(f'model {model_id} as a table of {tabulated}')

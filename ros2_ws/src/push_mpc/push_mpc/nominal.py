@@ -147,7 +147,7 @@ def _step_back(alpha: float, curvature: Array, width: float, slip_length: float)
 def _check_friction(track: Track, s: Array, alpha: Array, slider: Slider) -> None:
     """At p_y = 0 the force has the direction of travel, which has to be in the friction cone."""
     worst = int(np.argmax(np.abs(alpha)))
-    if math.tan(abs(alpha[worst])) > slider.friction_pusher:
+    if abs(alpha[worst]) > math.atan(slider.friction_pusher):
         _refuse(track, s[worst], slider)
 
 

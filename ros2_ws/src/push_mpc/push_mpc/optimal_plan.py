@@ -23,8 +23,9 @@ from push_mpc.nominal import Plan, path
 
 _INTERVAL = 0.003  # [m] of path with one force
 _DEGREE = 2
-_FACE_SHARE, _SPEED_SHARE = 0.8, 0.9  # of the face and of the speed limits that a plan uses
-_FARTHEST = 0.02  # [m] from the track; more is no plan for it
+_FACE_SHARE, _SPEED_SHARE = 0.6, 0.9  # of the face and of the speed limits that a plan uses
+_FARTHEST = 0.01  # [m] from the track; more is no plan for it
+_SHARE = 0.1  # of the track's extent, likewise
 _SETTLED = 0.05  # [m] over which the first guess of the heading smooths the track's
 _CHANGE, _SLIP, _CONTACT, _ASIDE = 0.03, 0.01, 0.01, 0.03
 _COMPLEMENTARITY = (0.1, 1e-4)  # slip times distance from the cone's edge, loose and then tight
@@ -205,7 +206,7 @@ def _check(task: Task, nodes: Array, reference: Array, solved: bool) -> None:
     away = np.hypot(*(nodes[:, :2] - reference[:, :2]).T)[: task.last + 1]
     worst = int(np.argmax(away))
     place = worst * task.stride * task.period * task.speed
-    if not solved or away[worst] > _FARTHEST:
+    if not solved or away[worst] > min(_FARTHEST, _SHARE * np.ptp(reference[:, :2], axis=0).max()):
         raise InputError(
             f'track {task.track.name} cannot be pushed near {1e3 * place:.0f} mm along it: '
             f'the best plan leaves it by {1e3 * away[worst]:.0f} mm'

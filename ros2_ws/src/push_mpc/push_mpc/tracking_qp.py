@@ -42,7 +42,7 @@ class Solution:
     """What the solver found.
 
     Attributes:
-        inputs: deviations of the inputs from the nominal (N, m).
+        inputs: deviations of the inputs from the nominal (N, m); good until the next solve.
         states: those of the states (N + 1, 4), in the solver's units; good until the next solve.
         cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
@@ -136,6 +136,8 @@ class TrackingQP:
         self._entries = np.zeros((steps, space.entries))
         self._drift = np.zeros((steps, NX, 4))
         self._targets = np.zeros((steps, NX + space.size, 3))
+        self._aims = np.zeros((steps, NX + space.size))
+        self._inputs = np.zeros((steps, space.size))
         self._tracking = self._diagonal(state_weights, input_weights)
         self._change = 2.0 * change_weights * space.scale**2 / self._cost_unit
         self._cost = self._tracking.copy()
@@ -193,10 +195,13 @@ class TrackingQP:
         self._opening = opening
         self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
-        inputs = result.x[self._states :].reshape(self.steps, -1) * self._space.scale
+        inputs = result.x[self._states :].reshape(self.steps, -1)
+        np.multiply(inputs, self._space.scale, out=self._inputs)
         states = result.x[: self._states].reshape(-1, NX)
         info = result.info
-        return Solution(inputs, states, float(info.obj_val), int(info.status_val), int(info.iter))
+        return Solution(
+            self._inputs, states, float(info.obj_val), int(info.status_val), int(info.iter)
+        )
 
     @property
     def problem(self) -> Problem:
@@ -221,11 +226,12 @@ class TrackingQP:
         drift = self._low[NX : self._states].reshape(-1, NX)
         np.matmul(self._drift, self._disturbance, out=drift)
         self._high[NX : self._states] = self._low[NX : self._states]
-        target = self._targets @ disturbance
+        np.matmul(self._targets, disturbance, out=self._aims)
         # the state of each stage, then that of the end, which has the last one's target
-        self._linear[: self._states - NX] = target[:, :NX].ravel()
-        self._linear[self._states - NX : self._states] = target[-1, :NX]
-        self._linear[self._states :] = target[:, NX:].ravel()
+        aims = self._linear[: self._states].reshape(-1, NX)
+        aims[:-1] = self._aims[:, :NX]
+        aims[-1] = self._aims[-1, :NX]
+        self._linear[self._states :].reshape(self.steps, -1)[:] = self._aims[:, NX:]
         np.multiply(self._tracking, self._linear, out=self._linear)
         np.negative(self._linear, out=self._linear)
 

@@ -190,6 +190,7 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
         self: TrackingQP, start: Array, opening: float, disturbance: Array, before: Array
     ) -> Solution:
         solution = solve(self, start, opening, disturbance, before)
+        solution = replace(solution, inputs=solution.inputs.copy())
         a, b, drift, target, limits = prepared[self]
         under = drift @ [1.0, *disturbance], target @ disturbance
         problems.append(((a, b, *under, limits, start.copy(), opening, before), solution))

@@ -121,6 +121,13 @@ def test_too_tight_a_turn_is_refused_with_its_place(slider) -> None:
     assert 270.0 < place < 360.0
 
 
+@pytest.mark.parametrize('radius', [0.004, 0.008, 0.013, 0.018, 0.03, 0.06])
+def test_a_circle_tighter_than_friction_holds_is_refused(slider, radius) -> None:
+    tight = ArcTrack('ring', [(2.0 * math.pi * radius, 1.0 / radius)], heading=0.0, closed=True)
+    with pytest.raises(TooTightError, match='track ring turns too tightly'):
+        flat_plan(tight, 0.02, slider, laps=1, period=0.01, overrun=1.0)
+
+
 def test_a_track_that_turns_back_on_itself_is_refused_with_its_place(slider) -> None:
     there = np.linspace(0.0, 0.2, 21)
     back = np.concatenate([there, there[-2::-1]])

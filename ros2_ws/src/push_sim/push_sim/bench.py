@@ -1,7 +1,6 @@
 """The command that measures the plant itself: `ros2 run push_sim bench`."""
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
@@ -9,6 +8,7 @@ from dataclasses import replace
 from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 from push_core.slider import Slider
+from push_core.strict_json import json_text
 
 from push_sim.plant_speed import memory_growth, pushes_per_second, real_time_factor
 from push_sim.settings import ENGINES, PROFILES, profile
@@ -55,7 +55,7 @@ def work(arguments: argparse.Namespace) -> None:
         'resets': arguments.resets,
         'memory_growth_mb': memory_growth(settings, slider, arguments.resets),
     }
-    sys.stdout.write(json.dumps(figures) + '\n' if arguments.json else _table(figures))
+    sys.stdout.write(json_text(figures) if arguments.json else _table(figures))
 
 
 def _table(figures: dict[str, str | int | float]) -> str:

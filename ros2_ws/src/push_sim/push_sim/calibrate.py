@@ -1,7 +1,6 @@
 """The command that fits the plant to measurements: `ros2 run push_sim calibrate`."""
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 from push_core.atomic_file import check_place, write_atomically
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
+from push_core.strict_json import json_text
 
 from push_sim.calibration import calibration
 from push_sim.calibration_json import calibration_json
@@ -67,7 +67,7 @@ def work(arguments: argparse.Namespace) -> None:
         write_atomically(arguments.output, content.encode())
     figures = calibration_json(found, arguments.seed, measured)
     if arguments.json:
-        sys.stdout.write(json.dumps(figures, indent=2) + '\n')
+        sys.stdout.write(json_text(figures))
     else:
         sys.stdout.write(calibration_table(figures))
 

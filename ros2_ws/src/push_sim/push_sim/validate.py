@@ -1,7 +1,6 @@
 """The command that holds the simulator against measurements: `ros2 run push_sim validate`."""
 
 import argparse
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 from push_core.atomic_file import check_place
 from push_core.command_line import Parser, run_command
 from push_core.slider import Slider
+from push_core.strict_json import json_text
 
 from push_sim.command_checks import check_jobs
 from push_sim.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
@@ -68,7 +68,7 @@ def work(arguments: argparse.Namespace) -> None:
         from push_sim.validation_page import write_validation_page  # noqa: PLC0415
 
         write_validation_page(arguments.html, found, arguments.profile, table)
-    sys.stdout.write(json.dumps(figures, indent=2) + '\n' if arguments.json else table)
+    sys.stdout.write(json_text(figures) if arguments.json else table)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
