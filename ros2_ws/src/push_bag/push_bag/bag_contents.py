@@ -26,6 +26,7 @@ class BagContents:
         facts: of the run.
         attachments: whole files by name.
         finished: whether the file came to its proper end.
+        counts: what the recorder received and lost by topic, as it wrote it down.
         middleware_lost: messages by topic of which the middleware told the recorder.
         statistics: what the file says it holds; None where it does not say.
     """
@@ -36,6 +37,7 @@ class BagContents:
         self.facts: dict[str, str] = {}
         self.attachments: dict[str, bytes] = {}
         self.finished = False
+        self.counts: dict[str, str] = {}
         self.middleware_lost: dict[str, int] = {}
         self.statistics: Statistics | None = None
         self._schemas: dict[int, Schema] = {}
@@ -93,6 +95,7 @@ class BagContents:
         self.middleware_lost = {
             topic: int(lost) for topic, lost in told.items() if lost is not None
         }
+        self.counts = dict(counts)
 
     def _note_spare_topic(self, record: dict[str, str]) -> None:
         if str(zlib.crc32(record['topic'].encode())) != record['crc32']:

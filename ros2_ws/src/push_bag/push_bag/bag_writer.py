@@ -52,7 +52,7 @@ class BagWriter:
         self._facts = dict(facts)
         self._first_ns: int | None = None
         self._last_ns = 0
-        self._stream: IO[bytes] | None = self.path.open('wb')
+        self._stream: IO[bytes] | None = _new_file(self.path)
         self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
         self._registry = TopicRegistry(self._writer)
         self._attempt(lambda: self._write_head(attachments))
@@ -200,3 +200,11 @@ def _new_folder(folder: Path) -> Path:
     except OSError as error:
         raise InputError(f'{folder} cannot be made: {error.strerror}') from None
     return folder
+
+
+def _new_file(path: Path) -> IO[bytes]:
+    try:
+        return path.open('wb')
+    except OSError as error:
+        path.parent.rmdir()
+        raise InputError(f'{path} cannot be made: {error.strerror}') from None

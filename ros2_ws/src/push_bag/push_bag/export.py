@@ -18,9 +18,10 @@ from push_bag.run_reader import read_run
 from push_bag.tick_table import Table, tick_table
 
 EPILOG = """
-One row for each tick of the controller, in SI units; the names of the columns end with the unit.
-Empty (CSV) or null (Parquet) where a tick has no such figure. --parquet needs pyarrow, which is
-large and which nothing else here uses: pip install pyarrow==25.0.1
+One row for each tick of the controller, in SI units, which the names of the columns end with; v_n
+and v_t, the input and the nominal one, are in m/s. Empty (CSV) or null (Parquet) where a tick has
+no such figure. --parquet needs pyarrow: `make setup EXTRA=parquet`.
+Example: ros2 run push_bag export runs/RUN --csv -o run.csv
 """
 
 
@@ -65,9 +66,13 @@ def _parser() -> Parser:
     parser = Parser('Writes a run as one table, a row for each tick.', EPILOG)
     parser.add_argument('run', type=Path, help='run folder or MCAP file')
     kind = parser.add_mutually_exclusive_group(required=True)
-    kind.add_argument('--csv', dest='write', action='store_const', const=csv_bytes)
-    kind.add_argument('--parquet', dest='write', action='store_const', const=parquet_bytes)
-    parser.add_argument('-o', '--output', type=Path, required=True, metavar='FILE')
+    for name, write in (('csv', csv_bytes), ('parquet', parquet_bytes)):
+        kind.add_argument(
+            f'--{name}', dest='write', action='store_const', const=write, help=f'as {name.upper()}'
+        )
+    parser.add_argument(
+        '-o', '--output', type=Path, required=True, metavar='FILE', help='the file to write'
+    )
     return parser
 
 

@@ -1,7 +1,8 @@
 """The numbers of a score by name: to compare runs, to average over them, to hold them to a bound.
 
 A figure is named by its path in the score's JSON, `tracking_error_mm.mean`; the figures of the
-tracking error may be named without it, `mean`.
+tracking error may be named without it, `mean`. `lost` is the number of lost messages, `incomplete`
+is 1 for a run that was not completed and 0 for one that was.
 """
 
 import math
@@ -35,6 +36,8 @@ COMPARED = (
     'lost',
 )
 DEFAULT_GROUP = 'tracking_error_mm'
+WORDS = ('stop_reason', 'profile', 'mode', 'recovered_from')
+"""Of a score; null where a run has none."""
 
 
 @dataclass(frozen=True)
@@ -53,12 +56,14 @@ def figure(score: Mapping[str, Any], name: str) -> float:
     """
     if name == 'lost':
         return float(messages_lost(score))
+    if name == 'incomplete':
+        return float(not score['completed'])
     found: Any = score
     for part in name.split('.'):
         if not isinstance(found, Mapping) or part not in found:
             raise InputError(f'a score has no figure {name!r}; name one such as {COMPARED[0]}')
         found = found[part]
-    if isinstance(found, Mapping | str):
+    if isinstance(found, Mapping | str) or name in WORDS:
         raise InputError(f'{name!r} is no number of the score; name one such as {COMPARED[0]}')
     return math.nan if found is None else float(found)
 
@@ -99,7 +104,7 @@ def check_bounds(scores: Sequence[tuple[str, Mapping[str, Any]]], bounds: Sequen
         RunError: names the first figures that are too high.
     """
     broken = [
-        f'{each.figure} is {figure(score, each.figure):.4g} in {run}, above {each.value:g}'
+        _complaint(each, figure(score, each.figure), run)
         for run, score in scores
         for each in bounds
         if not figure(score, each.figure) <= each.value
@@ -107,3 +112,9 @@ def check_bounds(scores: Sequence[tuple[str, Mapping[str, Any]]], bounds: Sequen
     if broken:
         others = f' (and {len(broken) - 1} more)' if len(broken) > 1 else ''
         raise RunError(broken[0] + others)
+
+
+def _complaint(broken: Bound, value: float, run: str) -> str:
+    if math.isnan(value):
+        return f'{run} has no {broken.figure}, which was not to be above {broken.value:g}'
+    return f'{broken.figure} is {value:.4g} in {run}, above {broken.value:g}'

@@ -16,8 +16,10 @@ from rclpy.node import Node
 
 from push_bag.cell_topics import CELL_TOPICS
 from push_bag.live_server import LiveServer
+from push_bag.qos_text import qos_text
 from push_bag.recorder_settings import split_list
 from push_bag.recording import Recording
+from push_bag.topic_names import full_name
 
 DRAIN_PERIOD = 0.02  # [s]; a browser draws no faster
 DISCOVERY_PERIOD = 0.2  # [s]
@@ -29,21 +31,36 @@ class LiveSettings:
 
     host: str = setting('127.0.0.1', 'address to listen at; 0.0.0.0 for every network')
     port: int = setting(8765, 'TCP port; 0 takes any that is free', low=0, high=65535)
-    topics: str = setting('', 'topics to show beside those of the cell, separated by commas')
+    topics: str = setting(
+        '', 'topics or patterns (/arm/*) to show beside those of the cell, separated by commas'
+    )
 
     def __post_init__(self) -> None:
         validate(self)
 
 
 class Live(Node):  # type: ignore[misc]
-    """Hands on what the cell publishes."""
+    """Shows a running or replayed cell in the browser, over the Foxglove WebSocket protocol.
+
+      ros2 run push_bag live
+      ros2 run push_bag live --ros-args -p port:=9000 -p topics:="/arm/*"
+
+    Then open https://app.foxglove.dev, choose "Open connection" and ws://127.0.0.1:8765, and
+    import the layout foxglove_layout.json of push_bringup's config folder.
+
+    host     address to listen at; 127.0.0.1, or 0.0.0.0 for every network
+    port     of TCP; 8765
+    topics   names or patterns to show beside those of the cell, separated by commas
+    """
 
     def __init__(self) -> None:
         super().__init__('live')
         settings = declared(self, LiveSettings())
-        offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
-        others = {self.resolve_topic_name(name) for name in split_list(settings.topics)}
-        server = LiveServer(settings.host, settings.port)
+        own = {self.resolve_topic_name(topic.name): topic for topic in CELL_TOPICS}
+        offers = {name: topic.qos for name, topic in own.items()}
+        others = {full_name(self, name) for name in split_list(settings.topics)}
+        known = [(name, topic.type_name, qos_text(topic.qos)) for name, topic in own.items()]
+        server = LiveServer(settings.host, settings.port, known)
         self._recording = Recording(server, {*offers, *others}, offers)
         # simulated time may stand still
         steady = Clock(clock_type=ClockType.STEADY_TIME)

@@ -5,7 +5,7 @@ latched topics are kept and shown again to whoever subscribes later, as DDS does
 horizon is shown a second time, as a marker on `horizon_line`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import foxglove
@@ -19,12 +19,14 @@ from push_bag.message_types import schema_text
 class LiveServer(ServerListener):
     """A `RawSink` that browsers watch; nothing is kept but what latched topics said last."""
 
-    def __init__(self, host: str, port: int) -> None:
+    def __init__(self, host: str, port: int, topics: Iterable[tuple[str, str, str]]) -> None:
         """Starts to listen.
 
         Args:
             host: address to listen at.
             port: of TCP; 0 takes any that is free.
+            topics: that are announced before anybody watches, as `add_topic` takes them. A
+                browser that is there when a topic is announced may ask for it too early.
 
         Raises:
             RunError: it cannot listen there.
@@ -33,6 +35,8 @@ class LiveServer(ServerListener):
         self._channels: dict[str, Any] = {}
         self._latched: dict[str, bytes] = {}
         self._lines: dict[str, Any] = {}
+        for topic in topics:
+            self.add_topic(*topic)
         try:
             self._server = foxglove.start_server(
                 name='pushing cell',
@@ -55,11 +59,13 @@ class LiveServer(ServerListener):
         return True
 
     def add_topic(self, name: str, type_name: str, qos_yaml: str) -> None:
-        """Announces a topic; see `BagWriter.add_topic`.
+        """Announces a topic that is not announced yet; see `BagWriter.add_topic`.
 
         Raises:
             InputError: the type is not installed.
         """
+        if name in self._channels:
+            return
         self._channels[name] = self._channel(name, type_name)
         if type_name == HORIZON_TYPE:
             self._lines[name] = self._channel(f'{name}_line', MARKER_TYPE)

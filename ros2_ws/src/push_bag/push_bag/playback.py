@@ -116,6 +116,11 @@ class Publishers:
         ):
             time.sleep(MATCHING_PERIOD)
 
+    @property
+    def are_heard(self) -> bool:
+        """Whether anybody listens to any of the topics."""
+        return any(each.get_subscription_count() for each in self._publishers.values())
+
     def publish(self, record: Record) -> None:
         """Publishes the bytes of one record, and before it what time it is."""
         if self._clock is not None:

@@ -1,6 +1,6 @@
 """Takes messages of a topic as bytes, with the middleware's times and numbers."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from rclpy.event_handler import QoSSubscriptionEventType, UnsupportedEventTypeError
@@ -41,11 +41,25 @@ class RawSubscription:
         Raises:
             InputError: the type is not installed.
         """
+        self._node = node
         self._type: Any = message_class(type_name)
+        self._profile = _matching(offered)
         self._subscription: Any = node.create_subscription(
-            self._type, topic, _ignore, _matching(offered), raw=True
+            self._type, topic, _ignore, self._profile, raw=True
         )
         self._loss_event = _loss_event(self._subscription)
+
+    def hears(self, offered: QoSProfile) -> bool:
+        """Whether it asks for no more than this."""
+        wanted = _matching(offered)
+        return bool(
+            self._profile.reliability in (wanted.reliability, ReliabilityPolicy.BEST_EFFORT)
+            and self._profile.durability in (wanted.durability, DurabilityPolicy.VOLATILE)
+        )
+
+    def close(self) -> None:
+        """Ends the subscription."""
+        self._node.destroy_subscription(self._subscription)
 
     @property
     def middleware_lost(self) -> int:
@@ -67,6 +81,17 @@ class RawSubscription:
                     about['source_timestamp'],
                     about['publication_sequence_number'] or 0,
                 )
+
+
+def weakest(offered: Sequence[QoSProfile]) -> QoSProfile:
+    """The profile by which all of some publishers are heard."""
+    reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offered)
+    latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offered)
+    return QoSProfile(
+        depth=offered[0].depth,
+        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
 
 
 def _loss_event(subscription: Any) -> Any:

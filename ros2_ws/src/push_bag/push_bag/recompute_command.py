@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import rclpy
@@ -22,7 +23,9 @@ def add_recompute_arguments(parser: Parser) -> None:
     group.add_argument(
         '--ask', action='store_true', help='have a running mpc_node compute them, in lockstep'
     )
-    group.add_argument('--controller', choices=('gp', 'analytical'), default='')
+    group.add_argument(
+        '--controller', choices=('gp', 'analytical'), default='', help='another controller'
+    )
     group.add_argument('--model', type=Path, metavar='FILE', help='another model file')
     group.add_argument(
         '-p',
@@ -35,8 +38,14 @@ def add_recompute_arguments(parser: Parser) -> None:
     group.add_argument('--html', type=Path, metavar='FILE', help='draw both over time')
 
 
-def check_recompute_arguments(arguments: argparse.Namespace) -> None:
+def check_recompute_arguments(
+    arguments: argparse.Namespace, replaying: Mapping[str, object]
+) -> None:
     """Refuses what would have no effect.
+
+    Args:
+        arguments: of the command line.
+        replaying: those that only a replay heeds, with their defaults.
 
     Raises:
         InputError: names it.
@@ -45,8 +54,14 @@ def check_recompute_arguments(arguments: argparse.Namespace) -> None:
         raise InputError('--recompute and --ask: name one of them')
     if (arguments.controller or arguments.model or arguments.param) and not arguments.recompute:
         raise InputError('--controller, --model and --param need --recompute')
-    if arguments.html and not (arguments.recompute or arguments.ask):
-        raise InputError('--html needs --recompute or --ask')
+    if not (arguments.recompute or arguments.ask):
+        if arguments.html:
+            raise InputError('--html needs --recompute or --ask')
+        return
+    given = vars(arguments)
+    for name, default in replaying.items():
+        if given[name] != default:
+            raise InputError(f'--{name} has no effect on --recompute and --ask')
 
 
 def recompute(arguments: argparse.Namespace) -> int:

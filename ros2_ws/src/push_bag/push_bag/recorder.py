@@ -15,6 +15,7 @@ from push_bag.bag_writer import BagWriter
 from push_bag.cell_topics import CELL_TOPICS
 from push_bag.recorder_settings import RecorderSettings, read_attachments, read_facts, split_list
 from push_bag.recording import Recording
+from push_bag.topic_names import full_name
 from push_bag.traffic import lost_text
 
 DISCOVERY_PERIOD = 0.1  # [s] while topics of the cell are missing
@@ -23,13 +24,22 @@ REPORT_PERIOD = 1.0  # [s]
 
 
 class Recorder(Node):  # type: ignore[misc]
-    """Records until it is stopped, or until the bag cannot be written any more."""
+    """Records every topic of a cell, raw, into a new folder, until it is stopped.
+
+      ros2 run push_bag recorder --ros-args -p folder:=runs/NEW
+      ros2 run push_bag recorder --ros-args -p folder:=runs/NEW -p topics:="/arm/*,/joint_states"
+
+    folder        new folder of the run; must not exist yet
+    topics        names or patterns to record beside those of the cell, separated by commas
+    attachments   files to keep in the bag, one a line
+    facts_file    JSON object with the facts of the run
+    """
 
     def __init__(self) -> None:
         super().__init__('recorder')
         settings = declared(self, RecorderSettings())
         offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
-        others = {self._full_name(name) for name in split_list(settings.topics)}
+        others = {full_name(self, name) for name in split_list(settings.topics)}
         self._core = {self.resolve_topic_name(topic.name) for topic in CELL_TOPICS if topic.core}
         self._writer = open_bag(settings)
         self._recording = Recording(self._writer, {*offers, *others}, offers)
@@ -53,12 +63,6 @@ class Recorder(Node):  # type: ignore[misc]
         if self._failure is not None:
             raise self._failure
 
-    def _full_name(self, name: str) -> str:
-        """A topic or a pattern of topics with the namespace before it."""
-        if not any(letter in name for letter in '*?['):
-            return str(self.resolve_topic_name(name))
-        return name if name.startswith('/') else f'{self.get_namespace().rstrip("/")}/{name}'
-
     def _start_timers(self, settings: RecorderSettings) -> None:
         # the recorder goes on while simulated time stands still
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -66,7 +70,9 @@ class Recorder(Node):  # type: ignore[misc]
         flush = self._guarded(self._recording.flush)
         self.create_timer(settings.poll_period, drain, clock=steady)
         self.create_timer(settings.flush_period, flush, clock=steady)
-        self._discovery = self.create_timer(DISCOVERY_PERIOD, self._discover, clock=steady)
+        self._discovery = self.create_timer(
+            DISCOVERY_PERIOD, self._guarded(self._discover), clock=steady
+        )
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
 
     def _guarded(self, work: Callable[[], None]) -> Callable[[], None]:
@@ -123,7 +129,7 @@ def open_bag(settings: RecorderSettings) -> BagWriter:
     if not settings.folder:
         raise InputError('name the new folder of the run with -p folder:=PATH')
     facts = read_facts(settings.facts_file)
-    attachments = read_attachments(split_list(settings.attachments))
+    attachments = read_attachments(settings.attachments.splitlines())
     return BagWriter(Path(settings.folder), facts, attachments)
 
 

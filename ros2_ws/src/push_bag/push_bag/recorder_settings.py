@@ -14,7 +14,7 @@ class RecorderSettings:
 
     folder: str = setting('', 'new folder of the run')
     facts_file: str = setting('', 'JSON object with the facts of the run; empty for none')
-    attachments: str = setting('', 'files to keep in the bag, separated by commas')
+    attachments: str = setting('', 'files to keep in the bag, one a line')
     topics: str = setting(
         '', 'topics or patterns (/arm/*) to record beside those of the cell, separated by commas'
     )
@@ -64,9 +64,15 @@ def read_attachments(paths: list[str]) -> dict[str, bytes]:
     """Files to keep in the bag, by name.
 
     Raises:
-        InputError: one of them cannot be read.
+        InputError: one of them cannot be read, or two have the same name.
     """
-    return {Path(path).name: _content(path) for path in paths}
+    found: dict[str, bytes] = {}
+    for path in paths:
+        name = Path(path).name
+        if name in found:
+            raise InputError(f'{path}: another file to keep in the bag is called {name} as well')
+        found[name] = _content(path)
+    return found
 
 
 def _content(path: str) -> bytes:

@@ -12,7 +12,7 @@ from rclpy.qos import QoSProfile
 
 from push_bag.bag_writer import COUNTS_RECORD
 from push_bag.qos_text import qos_text
-from push_bag.raw_subscription import RawSubscription
+from push_bag.raw_subscription import RawSubscription, weakest
 from push_bag.traffic import Traffic
 
 
@@ -75,10 +75,17 @@ class Recording:
         )
 
     def discover(self) -> None:
-        """Subscribes to the wanted topics that have a publisher by now."""
+        """Subscribes to the wanted topics that have a publisher by now.
+
+        Anew where a publisher came that offers less than the others: it would not be heard.
+
+        Raises:
+            RunError: the bag cannot be written.
+        """
         for topic, types in self._listener.get_topic_names_and_types():
-            known = topic in self.traffic or topic in self.refused
-            if not known and any(fnmatchcase(topic, wanted) for wanted in self._topics):
+            if topic in self._subscriptions:
+                self._hear_all(topic, types[0])
+            elif topic not in self.refused and self._is_wanted(topic):
                 self._subscribe(topic, types[0])
 
     def drain(self) -> None:
@@ -131,11 +138,27 @@ class Recording:
             for topic, seen in self.traffic.items()
         }
 
-    def _subscribe(self, topic: str, type_name: str) -> None:
+    def _is_wanted(self, topic: str) -> bool:
+        return any(fnmatchcase(topic, wanted) for wanted in self._topics)
+
+    def _offered(self, topic: str) -> QoSProfile | None:
+        """What all publishers of a topic offer together, None without a publisher."""
         publishers = self._listener.get_publishers_info_by_topic(topic)
-        if not publishers:
+        return weakest([each.qos_profile for each in publishers]) if publishers else None
+
+    def _hear_all(self, topic: str, type_name: str) -> None:
+        offered = self._offered(topic)
+        if offered is None or self._subscriptions[topic].hears(offered):
             return
-        offered = publishers[0].qos_profile
+        # what comes between the two is counted as lost
+        self.drain()
+        self._subscriptions[topic].close()
+        self._subscriptions[topic] = RawSubscription(self._listener, topic, type_name, offered)
+
+    def _subscribe(self, topic: str, type_name: str) -> None:
+        offered = self._offered(topic)
+        if offered is None:
+            return
         try:
             subscription = RawSubscription(self._listener, topic, type_name, offered)
             self._writer.add_topic(topic, type_name, qos_text(self._offers.get(topic, offered)))

@@ -13,7 +13,7 @@ from push_core.command_line import Parser, run_command
 from push_core.errors import InputError
 
 from push_bag.bag_contents import BagContents
-from push_bag.bag_writer import BagWriter
+from push_bag.bag_writer import COUNTS_RECORD, BagWriter
 from push_bag.mcap_stream import DamagedError, RawMessage, RawRecord, chunk_records, message
 from push_bag.message_types import Definition, installed_definition
 from push_bag.qos_text import qos_profile
@@ -23,6 +23,7 @@ from push_bag.salvage import Damage, WholeChunk, whole_parts
 from push_bag.topic import Topic
 from push_bag.whole_bag import whole_bag
 
+RECOVERY_RECORD = 'recovery'  # what was saved and what is missing, written last
 EPILOG = """
 OUT becomes a run folder with one finished bag: every whole chunk of BROKEN, facts and attachments.
 What is missing is said: messages by their numbers, seconds by their times.
@@ -53,8 +54,17 @@ def recover(broken: Path, folder: Path) -> Recovered:
         contents = _contents(file)
         if not contents.topics:
             raise InputError(f'{path} holds nothing that could be recovered')
-        with whole_bag(folder, contents.facts, contents.attachments) as writer:
-            return _copied(file, contents, writer)
+        facts = {**contents.facts, 'recovered_from': path.name, 'recovered_bag': _state(contents)}
+        with whole_bag(folder, facts, contents.attachments) as writer:
+            found = _copied(file, contents, writer)
+            if contents.counts:
+                writer.note(COUNTS_RECORD, contents.counts)
+            writer.note(RECOVERY_RECORD, found.facts())
+            return found
+
+
+def _state(contents: BagContents) -> str:
+    return 'came to its end' if contents.finished else 'was cut short'
 
 
 def _contents(file: mmap.mmap) -> BagContents:

@@ -57,6 +57,15 @@ class Recovered:
         begin = max(self._first_ns - stated.message_start_time, 0)
         return self.gap_ns + int(end) + int(begin)
 
+    def facts(self) -> dict[str, str]:
+        """The same for the bag."""
+        return {
+            'messages_saved': str(self.messages),
+            'messages_missing': str(self.missing),
+            'seconds_missing': f'{self.missing_ns / SECOND:.3f}',
+            'bytes_damaged': str(self.damaged_bytes),
+        }
+
     def text(self) -> str:
         """Lines for a person."""
         span = (self._last_ns - self._first_ns) / SECOND

@@ -2,6 +2,7 @@
 
 import argparse
 import itertools
+import math
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -23,7 +24,16 @@ from push_bag.recompute_command import (
 )
 from push_bag.survey import Survey, survey
 
-DISCOVERY_TIME = 0.5  # [s] for subscribers to find the publishers before the first message
+DISCOVERY_TIME = 2.0  # [s] for who looks for publishers once a second, as the recorder does
+REPLAYING = {
+    'rate': 1.0,
+    'topics': None,
+    'start': 0.0,
+    'delay': DISCOVERY_TIME,
+    'loop': False,
+    'clock': False,
+}
+"""Options that only a replay heeds, and their defaults."""
 MATCHING_TIMEOUT = 5.0  # [s] for those that were seen to be connected
 EPILOG = """
 examples:
@@ -73,7 +83,7 @@ def _parser() -> Parser:
 
 
 def _work(arguments: argparse.Namespace) -> int:
-    check_recompute_arguments(arguments)
+    check_recompute_arguments(arguments, REPLAYING)
     if arguments.recompute:
         return recompute(arguments)
     if arguments.ask:
@@ -81,7 +91,7 @@ def _work(arguments: argparse.Namespace) -> int:
     if not arguments.rate > 0:
         raise InputError(f'--rate must be above 0, not {arguments.rate:g}')
     for name in ('start', 'delay'):
-        if getattr(arguments, name) < 0:
+        if not 0 <= getattr(arguments, name) < math.inf:
             raise InputError(f'--{name} must not be below 0, not {getattr(arguments, name):g}')
     found = survey(arguments.run, arguments.topics)
     if arguments.start > found.seconds:
@@ -99,6 +109,8 @@ def _replay(node: Node, found: Survey, arguments: argparse.Namespace) -> None:
     publishers = Publishers(node, found.topics.values(), arguments.clock)
     time.sleep(arguments.delay)
     publishers.wait_until_matched(MATCHING_TIMEOUT)
+    if not publishers.are_heard:
+        sys.stderr.write('replay: nobody listens yet; --delay S gives listeners more time\n')
     for _ in itertools.count() if arguments.loop else range(1):
         records = _records(arguments, found)
         count = play(records, publishers.publish, arguments.rate, found.seconds - arguments.start)

@@ -31,14 +31,20 @@ CONTROLS = """
 """
 
 
-def write_results(folder: Path) -> dict[str, Any]:
+def write_results(folder: Path, reason: str = '') -> dict[str, Any]:
     """Puts `score.json` and `report.html` into a run's folder and returns the score.
+
+    Args:
+        folder: of the run.
+        reason: why the cell ended it, empty if it came to its end. A recorder that died could
+            not write it down.
 
     Raises:
         InputError: there is no readable bag or no reference in it, or a file cannot be written.
     """
     run = read_run(folder)
     score = score_series(run)
+    score['stop_reason'] = score['stop_reason'] or reason or None
     write_atomically(folder / SCORE_FILE, json_text(score).encode())
     write_atomically(folder / REPORT_FILE, report_html([(run, score)]).encode())
     return score

@@ -55,6 +55,7 @@ class _Rows:
             'controller_state': TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
         }
         self._topics: dict[str, tuple[Traffic, Callable[[Record], None] | None]] = {}
+        self._sources: dict[str, str] = {}
         self._stop_reason = self._end_reason = ''
         self._reference: Reference | None = None
         self._model: Model | None = None
@@ -106,7 +107,14 @@ class _Rows:
 
     def _new_topic(self, name: str) -> tuple[Traffic, Callable[[Record], None] | None]:
         seen = self.traffic[name] = Traffic()
-        return seen, self._readers.get(short_name(name))
+        own = short_name(name)
+        other = self._sources.setdefault(own, name)
+        if own in self._readers and other != name:
+            raise InputError(
+                f'the bag holds two cells ({other}, {name}), of which one can be scored: record '
+                'each into a bag of its own'
+            )
+        return seen, self._readers.get(own)
 
     def _states(self, columns: Columns) -> Floats:
         reasons = [reason for reason in columns['stop_reason'] if reason]

@@ -98,6 +98,7 @@ def _verdict(run: RunSeries, reference: Reference, tracking: Tracking) -> dict[s
         'completed': completed(run, reference, tracking),
         'stop_reason': run.stop_reason or None,
         'bag_finished': run.finished,
+        'recovered_from': run.facts.get('recovered_from'),
         'duration_s': min(float(last), reference.duration),
     }
 

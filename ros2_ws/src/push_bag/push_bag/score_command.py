@@ -2,9 +2,9 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from push_core.atomic_file import write_atomically
 from push_core.command_line import Parser, run_command
@@ -17,6 +17,9 @@ from push_bag.run_reader import read_run
 from push_bag.runs_table import Scores, comparison_table, runs_object, runs_table
 from push_bag.score import score_run, score_series
 from push_bag.score_table import score_table
+from push_bag.series import RunSeries
+
+T = TypeVar('T')
 
 EPILOG = """
 examples:
@@ -24,10 +27,12 @@ examples:
   ros2 run push_bag score runs/A runs/B --html report.html
   ros2 run push_bag score runs/*                      a line for each run, their mean and spread
   ros2 run push_bag score runs/A runs/B --compare     figure by figure, with the difference
-  ros2 run push_bag score runs/RUN --fail-above mean=3.0 --fail-above solve_ms.p99=2
+  ros2 run push_bag score runs/RUN --fail-above incomplete=0 --fail-above mean=3.0
+  ros2 run push_bag score runs/RUN --fail-above solve_ms.p99=2 --fail-above lost=0
 
 A figure is named by its path in the JSON; mean, rms, p95 and max alone are those of the tracking
-error; `lost` is the number of lost messages. What each means: docs/scoring.md.
+error; `lost` is the number of lost messages, `incomplete` is 1 for a run that was not completed
+and 0 for one that was. What each means: docs/scoring.md.
 Exit status: 0 scored, 1 a figure is above its bound, 2 the command or a bag was wrong.
 """
 
@@ -62,8 +67,8 @@ def _parser() -> Parser:
 
 def _work(arguments: argparse.Namespace) -> None:
     bounds = [bound(text) for text in arguments.fail_above]
-    if arguments.compare and len(arguments.runs) != 2:
-        raise InputError('--compare takes two runs')
+    if arguments.compare and (len(arguments.runs) != 2 or arguments.json):
+        raise InputError('--compare takes two runs and prints a table; --json has all figures')
     scores = list(zip(map(str, arguments.runs), _scored(arguments), strict=True))
     sys.stdout.write(_text(arguments, scores))
     check_bounds(scores, bounds)
@@ -73,14 +78,26 @@ def _scored(arguments: argparse.Namespace) -> list[dict[str, Any]]:
     """The score of each run; their report is written where one was asked for."""
     paths = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
     if arguments.html is None:
-        return [score_run(path) for path in paths]
+        return [_of(path, score_run) for path in paths]
     # plotly takes a second to import: only who asks for a report waits for it
     from push_bag.report import report_html  # noqa: PLC0415
 
-    runs = [read_run(path) for path in paths]
-    scored = [(run, score_series(run)) for run in runs]
+    scored = [_of(path, _run_and_score) for path in paths]
     write_atomically(arguments.html, report_html(scored).encode())
     return [score for _, score in scored]
+
+
+def _run_and_score(path: Path) -> tuple[RunSeries, dict[str, Any]]:
+    run = read_run(path)
+    return run, score_series(run)
+
+
+def _of(path: Path, work: Callable[[Path], T]) -> T:
+    """What some work makes of a bag; its error names the bag."""
+    try:
+        return work(path)
+    except InputError as error:
+        raise InputError(str(error) if str(path) in str(error) else f'{path}: {error}') from error
 
 
 def _text(arguments: argparse.Namespace, scores: Scores) -> str:

@@ -31,10 +31,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('holds', str(score['holds'])),
         ('contact losses', str(score['contact_losses'])),
         ('limited ticks', _counts(score['limited'])),
-        (
-            'bag',
-            'finished' if score['bag_finished'] else 'unfinished: the recording was cut short',
-        ),
+        ('bag', _bag(score)),
     ]
 
 
@@ -50,6 +47,12 @@ def messages_line(score: Mapping[str, Any]) -> str:
     sent = sum(counts['received'] for counts in topics.values()) + sum(lost.values())
     named = ''.join(f'; {name} {count}' for name, count in lost.items())
     return f'{sum(lost.values())} of {sent} messages lost{named}'
+
+
+def _bag(score: Mapping[str, Any]) -> str:
+    if score['recovered_from']:
+        return f'recovered from {score["recovered_from"]}: something may be missing'
+    return 'finished' if score['bag_finished'] else 'unfinished: the recording was cut short'
 
 
 def _verdict(score: Mapping[str, Any]) -> str:

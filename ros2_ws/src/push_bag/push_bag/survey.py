@@ -17,8 +17,8 @@ class Survey:
 
     Attributes:
         topics: that have messages, by full name.
-        first_ns: earliest log time of their messages [ns].
-        last_ns: latest one.
+        first_ns: earliest log time of any message in the bag [ns].
+        last_ns: latest one of these topics.
     """
 
     topics: Mapping[str, Topic]
@@ -27,7 +27,7 @@ class Survey:
 
     @property
     def seconds(self) -> float:
-        """Time [s] from the first message to the last."""
+        """Time [s] from the beginning of the bag to the last message of these topics."""
         return (self.last_ns - self.first_ns) * 1e-9
 
 
@@ -52,7 +52,8 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
         raise InputError(
             f'{reader.path} holds no messages' + (' of these topics' if names else '')
         )
-    return Survey(topics, min(first for first, _ in seen), max(last for _, last in seen))
+    begin = min(first for first, _ in spans.values())
+    return Survey(topics, begin, max(last for _, last in seen))
 
 
 def _wanted(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[str, Topic]:
@@ -63,6 +64,6 @@ def _wanted(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[st
         found = [full for full in topics if name in (full, full[1:], short_name(full))]
         if not found:
             known = ', '.join(sorted(topics))
-            raise InputError(f'the bag has no topic {name}; it has {known}')
+            raise InputError(f'the bag has no message of a topic {name}; it has those of {known}')
         wanted |= {full: topics[full] for full in found}
     return wanted

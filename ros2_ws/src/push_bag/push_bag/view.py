@@ -58,7 +58,7 @@ def _view(number: int, run: RunSeries, score: Mapping[str, Any]) -> View:
     if run.reference is None:
         raise InputError('the bag holds no nominal trajectory, so there is nothing to report')
     return View(
-        name=f'{number + 1}: {title(score)}',
+        name=f'{number + 1}: {title(score)}{_setting(run)}',
         colour=RUN_COLOURS[number % len(RUN_COLOURS)],
         run=run,
         score=score,
@@ -67,3 +67,11 @@ def _view(number: int, run: RunSeries, score: Mapping[str, Any]) -> View:
         contact=contact(run, run.reference),
         timing=timing(run),
     )
+
+
+def _setting(run: RunSeries) -> str:
+    """What else tells a run from others of its kind."""
+    perturbed = run.facts.get('perturb', 'none')
+    words = [] if perturbed == 'none' else [perturbed]
+    words += [f'{name} {run.facts[name]}' for name in ('profile', 'seed') if name in run.facts]
+    return f' ({", ".join(words)})' if words else ''

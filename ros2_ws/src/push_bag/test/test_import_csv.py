@@ -9,6 +9,7 @@ from push_bag.import_csv import main
 from push_bag.robot_run import COLUMNS
 from push_bag.run_reader import read_run
 from push_bag.score import score_run
+from push_bag.score_command import main as score
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR') or Path(__file__).resolve().parents[5] / 'shared/data')
 MEASURED = DATA / 'robot_runs' / 'line_50mms_unperturbed.csv'
@@ -37,13 +38,19 @@ def straight(offset):
 
 def test_what_is_beside_the_line_is_the_score(written, tmp_path):
     assert main([str(written(straight(0.002))), '-o', str(tmp_path / 'run')]) == 0
-    score = score_run(tmp_path / 'run')
-    assert score['completed'] is True
-    assert score['cross_track_mm'] == pytest.approx({'mean': 2.0, 'rms': 2.0, 'max': 2.0})
-    assert score['tracking_error_mm']['mean'] == pytest.approx(2.0, abs=1e-3)
-    assert score['speed_m_s'] == pytest.approx(0.05)
-    assert score['solve_ms']['p50'] is None
-    assert score['pose_to_command_ms']['p50'] is None
+    found = score_run(tmp_path / 'run')
+    assert found['completed'] is True
+    assert found['cross_track_mm'] == pytest.approx({'mean': 2.0, 'rms': 2.0, 'max': 2.0})
+    assert found['tracking_error_mm']['mean'] == pytest.approx(2.0, abs=1e-3)
+    assert found['speed_m_s'] == pytest.approx(0.05)
+    assert found['solve_ms']['p50'] is None
+    assert found['pose_to_command_ms']['p50'] is None
+
+
+def test_a_run_whose_loop_nobody_timed_has_a_report(written, tmp_path):
+    assert main([str(written(straight(0.002))), '-o', str(tmp_path / 'run')]) == 0
+    assert score([str(tmp_path / 'run'), '--html', str(tmp_path / 'page.html')]) == 0
+    assert 'not measured' in (tmp_path / 'page.html').read_text()
 
 
 def test_commands_are_the_slopes_of_the_commanded_positions(written, tmp_path):

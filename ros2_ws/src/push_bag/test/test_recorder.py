@@ -16,11 +16,13 @@ from push_bag.recorder_settings import RecorderSettings
 from push_bag.recover import recover
 from push_core.errors import InputError
 from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 pytestmark = pytest.mark.processes
 
 PATIENCE = 60.0  # [s]; nothing but a hang takes that long
+BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 ROUNDS = 40  # of messages, so few that all may wait for a recorder that gets no core
 CORE = [topic for topic in CELL_TOPICS if topic.core]
 
@@ -151,6 +153,22 @@ def test_topics_that_appear_later_are_recorded_by_pattern(cell, start, tmp_path)
     wait_until(lambda: recorded_so_far(tmp_path / 'run', '/arm/joint'))
     (data,) = recorded_so_far(tmp_path / 'run', '/arm/joint')
     assert data[8:12] == b'here'
+
+
+def test_a_publisher_that_offers_less_than_the_first_is_heard_as_well(cell, start, tmp_path):
+    start(f'folder:={tmp_path / "run"}', 'topics:=/arm/joint')
+    first = cell.create_publisher(String, '/arm/joint', 10)
+    wait_until(first.get_subscription_count)
+    second = cell.create_publisher(String, '/arm/joint', BEST_EFFORT)
+    wait_until(second.get_subscription_count)
+
+    def both_are_there():
+        first.publish(String(data='one!'))
+        second.publish(String(data='two!'))
+        texts = {data[8:12] for data in recorded_so_far(tmp_path / 'run', '/arm/joint')}
+        return texts == {b'one!', b'two!'}
+
+    wait_until(both_are_there)
 
 
 def test_a_killed_recording_is_recovered_without_a_hole(cell, start, tmp_path):

@@ -76,10 +76,15 @@ def test_text_that_is_no_profile_is_refused():
     [
         (['--rate', '0'], '--rate must be above 0'),
         (['--start', '-1'], '--start must not be below 0'),
+        (['--start', 'nan'], '--start must not be below 0'),
+        (['--delay', 'inf'], '--delay must not be below 0'),
+        (['--topics', 'perturbation'], 'no message of a topic perturbation'),
         (['--start', '60', '--loop'], '--start 60 is after the end at 1.'),
         (['--ask', '--recompute'], 'name one of them'),
         (['--ask', '--controller', 'gp'], 'need --recompute'),
         (['--html', 'page.html'], '--html needs --recompute or --ask'),
+        (['--recompute', '--rate', '2'], '--rate has no effect'),
+        (['--ask', '--loop'], '--loop has no effect'),
     ],
 )
 def test_what_cannot_be_played_is_refused_in_one_line(perfect, capsys, words, reason):
@@ -121,8 +126,14 @@ def test_a_subscriber_receives_the_recorded_bytes(perfect):
 def test_only_the_named_topics_are_found(perfect):
     found = survey(perfect, ['object_pose', '/model_info'])
     assert set(found.topics) == {'/object_pose', '/model_info'}
-    with pytest.raises(InputError, match='no topic nonsense'):
+    with pytest.raises(InputError, match='no message of a topic nonsense'):
         survey(perfect, ['nonsense'])
+
+
+def test_the_start_counts_from_the_beginning_of_the_bag_whatever_the_topics(perfect):
+    whole, late = survey(perfect, None), survey(perfect, ['run_end'])
+    assert late.first_ns == whole.first_ns
+    assert late.seconds == whole.seconds > 1.0
 
 
 def test_what_is_latched_is_not_skipped_with_the_time_before_the_start(perfect):

@@ -5,12 +5,15 @@ import math
 
 import numpy as np
 import pytest
+from geometry_msgs.msg import PoseStamped
+from push_bag.bag_writer import BagWriter
 from push_bag.report import write_results
 from push_bag.score import score_run
 from push_bag.score_command import main
 from push_core.errors import InputError
 from push_core.strict_json import json_text
 from push_msgs.msg import ControllerState
+from rclpy.serialization import serialize_message
 
 
 def circling(pose, time):
@@ -163,6 +166,21 @@ def test_score_prints_one_json_object_or_a_table(record, capsys):
     assert lines[0].split() == ['completed', 'yes']
     assert lines[-1].startswith('1 of ')
     assert lines[-1].endswith('messages lost; /object_pose 1')
+
+
+def test_the_results_tell_why_a_recorder_that_died_ended_the_run(record):
+    folder = record(duration=0.4)
+    assert write_results(folder, 'recorder was killed')['stop_reason'] == 'recorder was killed'
+    assert json.loads((folder / 'score.json').read_text())['stop_reason'] == 'recorder was killed'
+
+
+def test_a_bag_of_two_cells_is_not_scored_as_one(tmp_path):
+    with BagWriter(tmp_path / 'mixed', {}, {}) as bag:
+        for name in ('/left/object_pose', '/right/object_pose'):
+            bag.add_topic(name, 'geometry_msgs/msg/PoseStamped', '')
+            bag.write(name, serialize_message(PoseStamped()), 1, 1)
+    with pytest.raises(InputError, match='two cells'):
+        score_run(tmp_path / 'mixed')
 
 
 def test_a_bag_without_a_reference_cannot_be_scored(record):

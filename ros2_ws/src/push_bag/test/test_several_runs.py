@@ -49,11 +49,23 @@ def test_a_figure_above_its_bound_is_one_line_and_status_1(runs, capsys):
 def test_a_figure_that_a_run_has_not_is_above_every_bound(record, capsys):
     run = str(record(facts={'mode': 'inprocess'}, duration=0.4))
     assert main([run, '--fail-above', 'pose_to_command_ms.p50=1000']) == 1
+    assert f'{run} has no pose_to_command_ms.p50' in capsys.readouterr().err
+
+
+def test_a_run_that_was_not_completed_can_be_told_by_a_bound(runs, record, capsys):
+    assert main([runs[0], '--fail-above', 'incomplete=0']) == 0
+    stopped = str(record(end_reason='a node died', modes=lambda _tick: 2, duration=0.4))
+    assert main([stopped, '--fail-above', 'incomplete=0']) == 1
 
 
 @pytest.mark.parametrize(
     'words',
-    [['--fail-above', 'mean'], ['--fail-above', 'nonsense=1'], ['--fail-above', 'track=1']],
+    [
+        ['--fail-above', 'mean'],
+        ['--fail-above', 'nonsense=1'],
+        ['--fail-above', 'track=1'],
+        ['--fail-above', 'stop_reason=1'],
+    ],
 )
 def test_a_wrong_bound_is_one_line_and_status_2(runs, capsys, words):
     assert main([runs[0], *words]) == 2
@@ -62,6 +74,12 @@ def test_a_wrong_bound_is_one_line_and_status_2(runs, capsys, words):
 
 def test_a_comparison_takes_two_runs(runs):
     assert main([*runs, '--compare']) == 2
+
+
+def test_an_error_names_the_bag_that_it_is_about(runs, record, capsys):
+    broken = str(record(missing={'nominal_trajectory': {0}}))
+    assert main([*runs, broken]) == 2
+    assert f'{broken}: the bag holds no nominal trajectory' in capsys.readouterr().err
 
 
 def test_several_runs_share_a_report(runs, tmp_path):

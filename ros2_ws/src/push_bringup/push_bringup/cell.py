@@ -209,7 +209,7 @@ def _finish(folder: Path, reason: str) -> int:
     from push_bag.score_table import score_table
 
     try:
-        score = write_results(folder)
+        score = write_results(folder, reason)
     except InputError as error:
         raise RunError(f'{reason or error}; what was recorded is in {folder}') from error
     sys.stdout.write(score_table(score))

@@ -133,7 +133,7 @@ def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dic
         'recorder': {
             'folder': str(folder),
             'facts_file': str(inputs / 'facts.json'),
-            'attachments': ','.join(str(path) for path in attachments),
+            'attachments': '\n'.join(str(path) for path in attachments),
         },
     }
 

@@ -34,8 +34,9 @@ class Child:
         lines = self.log.read_text(encoding='utf-8', errors='replace').split('\n')
         spoken = [line for line in lines if line.strip()]
         code = self.process.returncode
-        ended = f'killed by signal {-code}' if code is not None and code < 0 else f'status {code}'
-        return f'{self.name} ended with {ended}' + (f': {spoken[-1]}' if spoken else '')
+        killed = code is not None and code < 0
+        ended = f'was killed by signal {-code}' if killed else f'ended with status {code}'
+        return f'{self.name} {ended}' + (f': {spoken[-1]}' if spoken else '')
 
 
 class Processes:

@@ -28,8 +28,9 @@ def parser() -> Parser:
     """The command line."""
     arguments = Parser(
         'Compares a model with a file of measured pushes.',
-        epilog='Short pushes are those that `train` takes; for long ones (columns x0_m, y0_m, '
-        'theta0_rad, …)\nthe model is rolled out step by step and compared with where they ended.',
+        epilog='Prints RMSE, NMSE in the push frame and the body frame, NLPD, and what share the '
+        '95 %\ninterval holds. Short pushes are those that `train` takes; for long ones (columns '
+        'x0_m, y0_m,\ntheta0_rad, …) the model is rolled out step by step and compared with where they ended.',
     )
     arguments.prog = 'push_gp evaluate'
     arguments.add_argument('model', help="a model file, or 'analytical' for the motion cone")

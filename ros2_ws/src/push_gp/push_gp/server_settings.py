@@ -15,7 +15,8 @@ class ServerSettings:
     model: str = setting(ANALYTICAL, "path of a model file, or 'analytical' for the motion cone")
     max_points: int = setting(
         5000,
-        'training pushes beyond which add_pushes drops the older of the two closest',
+        'training pushes beyond which add_pushes drops the older of the two closest; a larger '
+        'model is served as it is until then',
         low=1,
         high=20_000,
     )

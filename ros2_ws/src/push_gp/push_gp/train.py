@@ -40,7 +40,12 @@ def parser() -> Parser:
     which = arguments.add_mutually_exclusive_group()
     which.add_argument('--points', type=int, help='how many random pushes; default: all')
     which.add_argument('--subset', metavar='COLUMN', help='the pushes where COLUMN is 1')
-    which.add_argument('--pick', choices=['die'], help='the five pushes nearest to those of a die')
+    which.add_argument(
+        '--pick',
+        choices=['die'],
+        help='the five pushes nearest to the five of a die: into the middle of the face, and 30 '
+        'degrees to either side half-way to its ends',
+    )
     arguments.add_argument('--seed', type=int, help='of the random choice (default 0)')
     arguments.add_argument(
         '--nested',

@@ -1,6 +1,7 @@
 """The main of every node: start, spin, stop on SIGINT or SIGTERM, one line for an error."""
 
 import inspect
+import re
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -116,7 +117,8 @@ def _made(make_node: Callable[[], Node]) -> Node:
 
 
 def _name(make_node: Callable[[], Node]) -> str:
-    return getattr(make_node, '__name__', 'node')
+    """That of the executable: GpServer is gp_server."""
+    return re.sub(r'(?<=.)(?=[A-Z])', '_', getattr(make_node, '__name__', 'node')).lower()
 
 
 def _on_signal(_number: int, _frame: FrameType | None) -> None:
