@@ -30,7 +30,8 @@ def parser() -> Parser:
         'Compares a model with a file of measured pushes.',
         epilog='Prints RMSE, NMSE in the push frame and the body frame, NLPD, and what share the '
         '95 %\ninterval holds. Short pushes are those that `train` takes; for long ones (columns '
-        'x0_m, y0_m,\ntheta0_rad, …) the model is rolled out step by step and compared with where they ended.',
+        'x0_m,\ny0_m, theta0_rad, …) the model is rolled out step by step and compared with where '
+        'they\nended.',
     )
     arguments.prog = 'push_gp evaluate'
     arguments.add_argument('model', help="a model file, or 'analytical' for the motion cone")
