@@ -26,9 +26,9 @@ def parser() -> Parser:
     arguments = Parser(
         'Trains on ever more of the pushes and scores each model on pushes that it has not seen.',
         epilog='Beside each other: a GP with zero mean, one over the fitted motion cone, and the '
-        'cone\nalone: median and worst of the mean NMSE in the push frame, and what share the 95 % '
-        'interval\nholds. A fifth of the pushes, another one for each seed, is never trained on.\n'
-        'Example: curve pushes.csv --seeds 5 --points 10 100 1000 --html curve.html',
+        'cone\nalone: median and worst of the mean NMSE in the push frame, and what share the '
+        '95 % interval\nholds. A fifth of the pushes, another one for each seed, is never trained '
+        'on.\nExample: curve pushes.csv --seeds 5 --points 10 100 1000 --html curve.html',
     )
     arguments.prog = 'push_gp curve'
     arguments.add_argument('data', type=Path, help='CSV file of pushes')
