@@ -20,7 +20,7 @@ class Weights:
     normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
     tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
     change: float = setting(
-        5.0, 'change of the velocity since the last command', unit='s^2/m^2', low=0.0, high=1e9
+        2.0, 'change of the velocity since the last command', unit='s^2/m^2', low=0.0, high=1e9
     )
 
     def __post_init__(self) -> None:
