@@ -12,7 +12,7 @@ NU = 2
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
-CHANGE_WEIGHTS = np.array([5.0, 5.0])
+CHANGE_WEIGHTS = np.array([2.0, 2.0])
 BEFORE = np.array([0.01, -0.02])
 DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
