@@ -79,10 +79,10 @@ def test_an_idle_node_leaves_the_core_alone(node) -> None:
 @pytest.mark.parametrize(
     ('error', 'status', 'line'),
     [
-        ("InputError('no such model')", 2, 'Tested: no such model'),
-        ("RunError('no simulator')", 1, 'Tested: no simulator'),
-        ("FileNotFoundError(2, 'No such file', 'a.csv')", 1, 'Tested: a.csv: No such file'),
-        ("RuntimeError('no memory')", 2, 'Tested: cannot start: no memory'),
+        ("InputError('no such model')", 2, 'tested: no such model'),
+        ("RunError('no simulator')", 1, 'tested: no simulator'),
+        ("FileNotFoundError(2, 'No such file', 'a.csv')", 1, 'tested: a.csv: No such file'),
+        ("RuntimeError('no memory')", 2, 'tested: cannot start: no memory'),
     ],
 )
 def test_an_error_in_the_constructor_is_one_line_and_its_status(node, error, status, line) -> None:
@@ -97,7 +97,7 @@ def test_an_error_in_a_callback_ends_it_cleaned_up_with_status_1(node) -> None:
     output, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 1
     assert output == 'ready\ncleaned up\n'
-    assert errors.splitlines()[-1] == 'Tested: the tip is stuck'
+    assert errors.splitlines()[-1] == 'tested: the tip is stuck'
     assert 'Traceback' not in errors  # rclpy adds a line of its log
 
 
@@ -119,7 +119,7 @@ def test_bad_ros_arguments_are_an_error_of_status_2(node) -> None:
     process = node('-p', 'nonsense')
     _, errors = process.communicate(timeout=PATIENCE)
     assert process.returncode == 2
-    assert errors.splitlines()[-1].startswith('Tested: bad ROS arguments: ')
+    assert errors.splitlines()[-1].startswith('tested: bad ROS arguments: ')
     assert 'Traceback' not in errors
 
 
@@ -135,5 +135,5 @@ def test_an_argument_that_is_none_of_ros_is_refused(node) -> None:
     output, errors = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output) == (2, '')
     assert errors == (
-        "Tested: unknown argument 'model.npz'; parameters follow --ros-args, see --help\n"
+        "tested: unknown argument 'model.npz'; parameters follow --ros-args, see --help\n"
     )
