@@ -18,7 +18,7 @@ from rclpy.utilities import remove_ros_args
 
 _LONGEST_WAIT = 0.1  # [s]
 _HELP = """
-A node of the cell; `ros2 run push_bringup cell` starts them all. It runs until Ctrl-C.
+A node of the cell; `ros2 run push_bringup cell` starts those that it needs. It runs until Ctrl-C.
 
   --ros-args -p NAME:=VALUE        sets a parameter
   --ros-args --params-file FILE    sets many
