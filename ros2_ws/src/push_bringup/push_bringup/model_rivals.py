@@ -57,6 +57,7 @@ def fit_ours(pushes: PushSet) -> Fitted:
 def fit_scikit_learn(pushes: PushSet) -> Fitted:
     """scikit-learn; it has no gradients of its means, so central differences tell them."""
     # an optional extra of the environment, imported where it is asked for
+    from sklearn.exceptions import ConvergenceWarning  # noqa: PLC0415
     from sklearn.gaussian_process import GaussianProcessRegressor  # noqa: PLC0415
     from sklearn.gaussian_process.kernels import (  # noqa: PLC0415
         RBF,
@@ -69,7 +70,11 @@ def fit_scikit_learn(pushes: PushSet) -> Fitted:
         kernel = ConstantKernel(start.signal_std**2, (1e-6, 1e3)) * RBF(
             np.array(start.lengthscales) / np.sqrt(2.0), (1e-2, 1e2)
         ) + WhiteKernel(start.noise_std**2, (1e-8, 1.0))
-        process = GaussianProcessRegressor(kernel, alpha=0.0).fit(_scaled(pushes.inputs), outputs)
+        process = GaussianProcessRegressor(kernel, alpha=0.0)
+        with warnings.catch_warnings():
+            # of parameters that end near their bounds, which are as wide as ours
+            warnings.simplefilter('ignore', ConvergenceWarning)
+            process.fit(_scaled(pushes.inputs), outputs)
         signal, length, noise = np.split(np.exp(process.kernel_.theta), [1, 3])
         lengths = np.sqrt(2.0) * length * [HALF_FACE, 1.0]
         processes.append((process, scale))
