@@ -4,6 +4,7 @@ Each fits one Gaussian process an output with the kernel of the paper, by maximu
 one thread in double precision, and then tells means and Jacobians.
 """
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
