@@ -6,9 +6,9 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from push_bag.run_reader import read_run
-from push_bag.score import score_series
-from push_bag.tracking import track
+from push_bag.run.run_reader import read_run
+from push_bag.score.score import score_series
+from push_bag.score.tracking import track
 
 
 def draw(run_folder: Path, picture: Path) -> None:

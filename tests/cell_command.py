@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_bag.run_reader import read_run
-from push_core.errors import InputError
+from push_bag.run.run_reader import read_run
+from push_core.common.errors import InputError
 
 CELL = ('ros2', 'run', 'push_bringup', 'cell')
 # in real time: a machine that takes the cores away for half a second shall not end the run

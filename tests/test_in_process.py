@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_bag.recorder_settings import RecorderSettings
-from push_bringup.cell_parameters import CellParameters
-from push_bringup.in_process import InProcessCell
-from push_gp.gp_model import GpModel
-from push_gp.learn import learned
-from push_gp.server_settings import ServerSettings
-from push_mpc.controller import Mode, Tick
-from push_mpc.node_settings import mpc_settings
-from push_mpc.planning import planned
-from push_sim.collect import collect
-from push_sim.node_settings import node_settings
-from push_sim.plant import Observation
+from push_bag.record.recorder_settings import RecorderSettings
+from push_bringup.in_process.loop import InProcessCell
+from push_bringup.setup.cell_parameters import CellParameters
+from push_gp.models.gp_model import GpModel
+from push_gp.server.server_settings import ServerSettings
+from push_gp.training.learn import learned
+from push_mpc.loop.controller import Mode, Tick
+from push_mpc.plan.planning import planned
+from push_mpc.settings.node_settings import mpc_settings
+from push_sim.commands.collect import collect
+from push_sim.node.node_settings import node_settings
+from push_sim.plant.plant import Observation
 
 Lap = Callable[..., tuple[bool, float]]
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from cell_command import PATIENT, Ended
 from mcap_ros2.reader import read_ros2_messages
-from push_bag.recompute import Changes, recomputed
-from push_bag.run_reader import read_run
+from push_bag.replay.recompute import Changes, recomputed
+from push_bag.run.run_reader import read_run
 from rosbags.highlevel import AnyReader
 
 LINE = ('--track', 'line', '--speed', '0.15')

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 from cell_command import Ended
-from push_bag.recompute import Changes, recomputed
-from push_bag.run_reader import read_run
+from push_bag.replay.recompute import Changes, recomputed
+from push_bag.run.run_reader import read_run
 from push_msgs.msg import ControllerState
 
 LAP = ('--track', 'line', '--speed', '0.15', '--perturb', 'tangential', '--profile', 'harsh')

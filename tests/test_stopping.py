@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cell_command import HANG
-from push_bag.run_reader import read_run
-from push_bag.series import Stamped
+from push_bag.run.run_reader import read_run
+from push_bag.run.series import Stamped
 
 AT_REST = 1e-3  # [m/s]
 
@@ -53,8 +53,11 @@ def test_after_a_signal_the_nodes_end_by_themselves_and_the_bag_is_finished(
 ) -> None:
     nodes = nodes_of(pushing_cell)
     assert set(nodes) == {
-        'push_sim.sim_node', 'push_gp.gp_server', 'push_mpc.mpc_node', 'push_bag.recorder'
-    }  # fmt: skip
+        'push_sim.node.sim_node',
+        'push_gp.server.gp_server',
+        'push_mpc.node.mpc_node',
+        'push_bag.record.recorder',
+    }
     pushing_cell.send_signal(number)
     _, err = pushing_cell.communicate(timeout=HANG)
     assert pushing_cell.returncode == 130
@@ -70,7 +73,9 @@ def test_after_a_signal_the_nodes_end_by_themselves_and_the_bag_is_finished(
 def test_a_killed_controller_leaves_the_tip_at_rest_and_the_cell_says_why(
     pushing_cell: 'subprocess.Popen[str]', tmp_path: Path
 ) -> None:
-    subprocess.run(['kill', '-KILL', str(nodes_of(pushing_cell)['push_mpc.mpc_node'])], check=True)
+    subprocess.run(
+        ['kill', '-KILL', str(nodes_of(pushing_cell)['push_mpc.node.mpc_node'])], check=True
+    )
     out, err = pushing_cell.communicate(timeout=HANG)
     assert pushing_cell.returncode == 1
     assert 'mpc_node' in err.splitlines()[-1]

@@ -23,10 +23,10 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'bench = push_bringup.bench:main',
-            'cell = push_bringup.cell:main',
-            'parameters = push_bringup.parameters:main',
+            'bench = push_bringup.commands.bench:main',
+            'cell = push_bringup.commands.cell:main',
+            'parameters = push_bringup.commands.parameters:main',
         ],
-        'push_bag.recompute': ['cell = push_bringup.recompute:recomputed'],
+        'push_bag.recompute': ['cell = push_bringup.in_process.recompute:recomputed'],
     },
 )

@@ -9,7 +9,7 @@ setup(
     ),
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
-    package_data={'': ['py.typed', '*.css']},
+    package_data={'': ['py.typed']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/push_core']),
         ('share/push_core', ['package.xml']),

@@ -16,11 +16,11 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'sim_node = push_sim.sim_node:main',
-            'bench = push_sim.bench:main',
-            'collect = push_sim.collect:main',
-            'validate = push_sim.validate:main',
-            'calibrate = push_sim.calibrate:main',
+            'sim_node = push_sim.node.sim_node:main',
+            'bench = push_sim.commands.bench:main',
+            'collect = push_sim.commands.collect:main',
+            'validate = push_sim.commands.validate:main',
+            'calibrate = push_sim.commands.calibrate:main',
         ],
     },
 )

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_bag.bag_writer import BagWriter
-from push_bag.cell_topics import CELL_TOPICS
-from push_bag.message_types import message_class
-from push_bag.qos_text import qos_text
+from push_bag.file.bag_writer import BagWriter
+from push_bag.file.message_types import message_class
+from push_bag.file.qos_text import qos_text
 from push_msgs.msg import ControllerState
+from push_node.cell_topics import CELL_TOPICS
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 

@@ -3,10 +3,10 @@
 import resource
 
 import pytest
-from push_bag.bag_writer import BagWriter
-from push_bag.message_types import schema_text
-from push_bag.reader import BagReader
-from push_core.errors import InputError, RunError
+from push_bag.file.bag_writer import BagWriter
+from push_bag.file.message_types import schema_text
+from push_bag.file.reader import BagReader
+from push_core.common.errors import InputError, RunError
 
 STRING = 'std_msgs/msg/String'
 

@@ -4,11 +4,12 @@ import contextlib
 import random
 
 import pytest
-from push_bag import info, score_command
-from push_bag.damage import DAMAGES
-from push_bag.fuzz import READINGS
-from push_bag.reader import BagReader
-from push_core.errors import InputError
+from push_bag.commands import info
+from push_bag.commands import score as score_command
+from push_bag.file.reader import BagReader
+from push_bag.repair.damage import DAMAGES
+from push_bag.repair.fuzz import READINGS
+from push_core.common.errors import InputError
 
 
 @pytest.fixture

@@ -4,10 +4,10 @@ import random
 
 import numpy as np
 import pytest
-from push_bag.cdr_columns import columns
-from push_bag.cdr_layout import leaves
-from push_bag.message_types import message_class, schema_text
-from push_core.errors import InputError
+from push_bag.file.cdr_columns import columns
+from push_bag.file.cdr_layout import leaves
+from push_bag.file.message_types import message_class, schema_text
+from push_core.common.errors import InputError
 from rclpy.serialization import deserialize_message, serialize_message
 
 TYPES = (

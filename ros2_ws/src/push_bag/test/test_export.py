@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from push_bag.export import main
-from push_bag.run_reader import read_run
-from push_bag.tick_table import tick_table
+from push_bag.commands.export import main
+from push_bag.run.run_reader import read_run
+from push_bag.score.tick_table import tick_table
 
 
 def test_the_csv_has_a_row_for_each_tick_and_every_bit_of_its_numbers(record, tmp_path):

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_bag.import_csv import main
-from push_bag.robot_run import COLUMNS
-from push_bag.run_reader import read_run
-from push_bag.score import score_run
-from push_bag.score_command import main as score
+from push_bag.commands.import_csv import main
+from push_bag.commands.score import main as score
+from push_bag.robot_csv.robot_run import COLUMNS
+from push_bag.run.run_reader import read_run
+from push_bag.score.score import score_run
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR') or Path(__file__).resolve().parents[5] / 'shared/data')
 MEASURED = DATA / 'robot_runs' / 'line_50mms_unperturbed.csv'

@@ -1,7 +1,7 @@
 """What a bag holds, told and taken out."""
 
 import pytest
-from push_bag.info import main
+from push_bag.commands.info import main
 
 
 def test_it_tells_topics_rates_losses_and_facts(record, capsys):
@@ -31,6 +31,6 @@ def test_what_cannot_be_written_whole_leaves_no_folder(perfect, tmp_path, monkey
     def full(*_):
         raise OSError(28, 'No space left on device')
 
-    monkeypatch.setattr('push_core.atomic_file.os.fsync', full)
+    monkeypatch.setattr('push_core.common.atomic_file.os.fsync', full)
     assert main([str(perfect), '--extract', str(tmp_path / 'parts')]) == 2
     assert list(tmp_path.iterdir()) == []

@@ -70,7 +70,7 @@ def publisher() -> Iterator[Node]:
 def port() -> Iterator[int]:
     """Of a live view that runs."""
     process = subprocess.Popen(
-        [sys.executable, '-m', 'push_bag.live', '--ros-args', '-p', 'port:=0'],
+        [sys.executable, '-m', 'push_bag.commands.live', '--ros-args', '-p', 'port:=0'],
         stderr=subprocess.PIPE,
         text=True,
     )

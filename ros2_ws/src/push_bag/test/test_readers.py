@@ -7,12 +7,12 @@ import pytest
 import rclpy
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
-from push_bag.bag_writer import BagWriter
-from push_bag.cell_topics import CELL_TOPICS
-from push_bag.message_types import message_class, type_hash
-from push_bag.qos_text import qos_text
-from push_bag.reader import BagReader
-from push_bag.run_reader import read_run
+from push_bag.file.bag_writer import BagWriter
+from push_bag.file.message_types import message_class, type_hash
+from push_bag.file.qos_text import qos_text
+from push_bag.file.reader import BagReader
+from push_bag.run.run_reader import read_run
+from push_node.cell_topics import CELL_TOPICS
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability

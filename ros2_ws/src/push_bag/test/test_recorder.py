@@ -8,13 +8,13 @@ import time
 
 import pytest
 import rclpy
-from push_bag.cell_topics import CELL_TOPICS
-from push_bag.message_types import message_class
-from push_bag.reader import BagReader
-from push_bag.recorder import open_bag
-from push_bag.recorder_settings import RecorderSettings
-from push_bag.recover import recover
-from push_core.errors import InputError
+from push_bag.file.message_types import message_class
+from push_bag.file.reader import BagReader
+from push_bag.record.recorder import open_bag
+from push_bag.record.recorder_settings import RecorderSettings
+from push_bag.repair.recover import recover
+from push_core.common.errors import InputError
+from push_node.cell_topics import CELL_TOPICS
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
@@ -68,7 +68,7 @@ def start():
     started = []
 
     def start_recorder(*parameters, before=()):
-        command = [*before, sys.executable, '-m', 'push_bag.recorder', '--ros-args']
+        command = [*before, sys.executable, '-m', 'push_bag.record.recorder', '--ros-args']
         process = subprocess.Popen(
             [*command, *(word for parameter in parameters for word in ('-p', parameter))],
             stderr=subprocess.PIPE,

@@ -3,11 +3,11 @@
 import random
 
 import pytest
-from push_bag import recover as command
-from push_bag.mcap_stream import chunk_data, chunk_records, top_records
-from push_bag.reader import BagReader
-from push_bag.recover import recover
-from push_core.errors import InputError
+from push_bag.file.mcap_stream import chunk_data, chunk_records, top_records
+from push_bag.file.reader import BagReader
+from push_bag.repair import recover as command
+from push_bag.repair.recover import recover
+from push_core.common.errors import InputError
 
 
 @pytest.fixture(scope='module')

@@ -4,15 +4,15 @@ import time
 
 import pytest
 import rclpy
-from push_bag.cell_topics import CELL_TOPICS
-from push_bag.playback import Publishers, in_order, play, skipped_to
-from push_bag.qos_text import qos_profile, qos_text
-from push_bag.raw_subscription import RawSubscription
-from push_bag.reader import BagReader, Record
-from push_bag.replay import main
-from push_bag.survey import survey
-from push_bag.topic import Topic
-from push_core.errors import InputError
+from push_bag.commands.replay import main
+from push_bag.file.qos_text import qos_profile, qos_text
+from push_bag.file.reader import BagReader, Record
+from push_bag.file.topic import Topic
+from push_bag.record.raw_subscription import RawSubscription
+from push_bag.replay.playback import Publishers, in_order, play, skipped_to
+from push_bag.replay.survey import survey
+from push_core.common.errors import InputError
+from push_node.cell_topics import CELL_TOPICS
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 pytestmark = pytest.mark.processes

@@ -6,15 +6,15 @@ import re
 import numpy as np
 import pytest
 from plotly.offline import get_plotlyjs_version
-from push_bag.animation import animation_data
-from push_bag.deferred_figure import drawing_library
-from push_bag.horizons import Horizons
-from push_bag.report import REPORT_FILE, report_html, write_results
-from push_bag.run_reader import read_run
-from push_bag.score import score_series
-from push_bag.score_command import main
-from push_bag.timing_figure import timing_figure
-from push_bag.view import views
+from push_bag.commands.score import main
+from push_bag.report.animation import animation_data
+from push_bag.report.report import REPORT_FILE, report_html, write_results
+from push_bag.report.timing_figure import timing_figure
+from push_bag.report.view import views
+from push_bag.run.horizons import Horizons
+from push_bag.run.run_reader import read_run
+from push_bag.score.score import score_series
+from push_report.deferred_figure import drawing_library
 
 
 @pytest.fixture(scope='module')

@@ -5,7 +5,7 @@ import time
 from collections.abc import Iterator
 
 import pytest
-from push_bag.report import REPORT_FILE, write_results
+from push_bag.report.report import REPORT_FILE, write_results
 
 BROWSER = shutil.which('chromium') or shutil.which('google-chrome')
 QUIET = ('--no-sandbox', '--disable-gpu', '--disable-background-networking', '--no-first-run')

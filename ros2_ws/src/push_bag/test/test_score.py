@@ -6,12 +6,12 @@ import math
 import numpy as np
 import pytest
 from geometry_msgs.msg import PoseStamped
-from push_bag.bag_writer import BagWriter
-from push_bag.report import write_results
-from push_bag.score import score_run
-from push_bag.score_command import main
-from push_core.errors import InputError
-from push_core.strict_json import json_text
+from push_bag.commands.score import main
+from push_bag.file.bag_writer import BagWriter
+from push_bag.report.report import write_results
+from push_bag.score.score import score_run
+from push_core.common.errors import InputError
+from push_core.common.strict_json import json_text
 from push_msgs.msg import ControllerState
 from rclpy.serialization import serialize_message
 

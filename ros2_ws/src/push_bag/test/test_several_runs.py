@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from push_bag.score_command import main
+from push_bag.commands.score import main
 
 
 @pytest.fixture(scope='module')

@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from push_bag.traffic import Traffic, lost_text
+from push_bag.file.traffic import Traffic, lost_text
 
 
 def counted(sequences):

@@ -1,7 +1,7 @@
 import pytest
-from push_gp.learn import learned
-from push_gp.model_file import save_model
-from push_sim.collect import collect
+from push_gp.models.model_file import save_model
+from push_gp.training.learn import learned
+from push_sim.commands.collect import collect
 
 
 @pytest.fixture(scope='session')

@@ -5,21 +5,19 @@ import json
 import sys
 
 import pytest
-from push_bringup import (
-    bench,
-    bench_data,
-    bench_realtime,
-    bench_results,
-    bench_stopping,
-    bench_table,
-)
-from push_bringup.bench_data import Choice, Point
-from push_bringup.bench_realtime import Agreement
-from push_bringup.bench_table import Row
-from push_bringup.data_page import data_page
-from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
-from push_bringup.lap_pool import LapStore, push_all
-from push_bringup.table_page import table_page
+from push_bringup.bench import data as bench_data
+from push_bringup.bench import realtime as bench_realtime
+from push_bringup.bench import results as bench_results
+from push_bringup.bench import stopping as bench_stopping
+from push_bringup.bench import table as bench_table
+from push_bringup.bench.data import Choice, Point
+from push_bringup.bench.data_page import data_page
+from push_bringup.bench.realtime import Agreement
+from push_bringup.bench.table import Row
+from push_bringup.bench.table_page import table_page
+from push_bringup.commands import bench
+from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
+from push_bringup.experiment.lap_pool import LapStore, push_all
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)

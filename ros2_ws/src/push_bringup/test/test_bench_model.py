@@ -4,12 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_bringup import bench_model
-from push_bringup.model_rivals import fit_gpytorch, fit_ours, fit_scikit_learn
-from push_core.motion_cone import MotionCone
-from push_core.push_csv import write_pushes
-from push_core.push_set import PushSet
-from push_core.slider import Slider
+from push_bringup.bench import model as bench_model
+from push_bringup.rivals.model_rivals import fit_gpytorch, fit_ours, fit_scikit_learn
+from push_core.data.push_csv import write_pushes
+from push_core.data.push_set import PushSet
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
 
 
 @pytest.fixture(scope='module')

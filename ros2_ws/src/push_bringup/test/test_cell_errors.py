@@ -1,7 +1,7 @@
 """Bad input to `cell`: one clear line, status 2, nothing left behind."""
 
 import pytest
-from push_bringup.cell import main
+from push_bringup.commands.cell import main
 
 
 @pytest.fixture

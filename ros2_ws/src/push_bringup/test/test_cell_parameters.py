@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 import yaml
-from push_bringup.cell_parameters import installed_config, resolved
-from push_bringup.parameters import page
-from push_bringup.request import Request
-from push_core.errors import InputError
+from push_bringup.commands.parameters import page
+from push_bringup.setup.cell_parameters import installed_config, resolved
+from push_bringup.setup.request import Request
+from push_core.common.errors import InputError
 
 
 def request(**changes):

@@ -4,9 +4,9 @@ import shutil
 from pathlib import Path
 
 import pytest
-from push_bringup.default_model import default_model
-from push_gp.model_file import load_model
-from push_gp.sealed_archive import read_sealed, write_sealed
+from push_bringup.setup.default_model import default_model
+from push_gp.models.model_file import load_model
+from push_gp.models.sealed_archive import read_sealed, write_sealed
 
 
 @pytest.fixture

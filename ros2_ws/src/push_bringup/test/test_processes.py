@@ -3,8 +3,8 @@
 import time
 
 import pytest
-from push_bringup import processes
-from push_bringup.processes import Processes
+from push_bringup.graph import processes
+from push_bringup.graph.processes import Processes
 
 WILLING = "import signal; print('ready', flush=True); signal.sigwait([signal.SIGINT])"
 STUBBORN = 'import signal; signal.signal(signal.SIGINT, signal.SIG_IGN); '

@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_bringup.bench import main
-from push_bringup.cell_parameters import installed_config, resolved
-from push_bringup.in_process import InProcessCell
-from push_bringup.qp_recording import lap_request
-from push_bringup.qp_solvers import IN_SI_UNITS, SOLVERS, exact
-from push_gp.analytical_model import AnalyticalModel
-from push_mpc.controller import Mode
-from push_mpc.planning import planned
-from push_sim.perturbation import Kind, Perturbation
+from push_bringup.commands.bench import main
+from push_bringup.in_process.loop import InProcessCell
+from push_bringup.rivals.qp_recording import lap_request
+from push_bringup.rivals.qp_solvers import IN_SI_UNITS, SOLVERS, exact
+from push_bringup.setup.cell_parameters import installed_config, resolved
+from push_gp.models.analytical_model import AnalyticalModel
+from push_mpc.loop.controller import Mode
+from push_mpc.plan.planning import planned
+from push_sim.plant.perturbation import Kind, Perturbation
 
 
 @pytest.fixture(scope='module', params=['gp', 'analytical'])

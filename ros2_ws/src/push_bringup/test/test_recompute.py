@@ -4,21 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_bag.bag_writer import BagWriter
-from push_bag.reader import BagReader
-from push_bag.recompute import Changes, recomputed
-from push_bag.recorded_ticks import RecordedRun
-from push_bag.replay import main as replay
-from push_bringup.cell_parameters import CellParameters, node_defaults
-from push_bringup.in_process import InProcessCell, nanoseconds, tabulated
-from push_bringup.in_process_record import InProcessRecord
-from push_core.errors import InputError
-from push_gp.conversions import added_pushes_message
-from push_gp.model_file import load_model
-from push_gp.model_server import ModelServer
-from push_gp.model_source import model_named
-from push_mpc.controller import Mode, Tick
-from push_mpc.planning import planned
+from push_bag.commands.replay import main as replay
+from push_bag.file.bag_writer import BagWriter
+from push_bag.file.reader import BagReader
+from push_bag.replay.recompute import Changes, recomputed
+from push_bag.run.recorded_ticks import RecordedRun
+from push_bringup.in_process.loop import InProcessCell, nanoseconds, tabulated
+from push_bringup.in_process.record import InProcessRecord
+from push_bringup.setup.cell_parameters import CellParameters, node_defaults
+from push_core.common.errors import InputError
+from push_gp.models.model_file import load_model
+from push_gp.models.model_source import model_named
+from push_gp.server.conversions import added_pushes_message
+from push_gp.server.model_server import ModelServer
+from push_mpc.loop.controller import Mode, Tick
+from push_mpc.plan.planning import planned
 from push_node.stamps import to_seconds, to_stamp
 from rclpy.serialization import serialize_message
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.frames import Array
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
+from push_core.geometry.frames import Array
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
 
 
 @pytest.fixture(scope='session')

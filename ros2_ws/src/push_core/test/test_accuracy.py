@@ -2,8 +2,8 @@ import json
 
 import numpy as np
 import pytest
-from push_core.accuracy import accuracy, in_push_frame
-from push_core.push_set import PushSet
+from push_core.data.accuracy import accuracy, in_push_frame
+from push_core.data.push_set import PushSet
 
 
 def test_the_push_frame_has_x_along_the_push() -> None:

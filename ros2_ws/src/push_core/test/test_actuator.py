@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from push_core.actuator import ACTUATORS, Actuator, ActuatorSettings
+from push_core.physics.actuator import ACTUATORS, Actuator, ActuatorSettings
 
 STEP = 0.001
 SLOW = ActuatorSettings(dead_time=0.06, lag=0.05)

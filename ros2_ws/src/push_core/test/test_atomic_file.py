@@ -1,8 +1,8 @@
 import os
 
 import pytest
-from push_core.atomic_file import check_place, write_atomically
-from push_core.errors import InputError
+from push_core.common.atomic_file import check_place, write_atomically
+from push_core.common.errors import InputError
 
 
 def test_a_file_is_replaced_and_a_link_followed(tmp_path) -> None:

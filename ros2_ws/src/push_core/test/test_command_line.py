@@ -2,12 +2,12 @@ import subprocess
 import sys
 
 import pytest
-from push_core.command_line import Parser, describe, run_command
-from push_core.errors import InputError, PushError, RunError
+from push_core.common.command_line import Parser, describe, run_command
+from push_core.common.errors import InputError, PushError, RunError
 
 FLOOD = """
 import sys
-from push_core.command_line import Parser, run_command
+from push_core.common.command_line import Parser, run_command
 
 def flood(arguments):
     while True:

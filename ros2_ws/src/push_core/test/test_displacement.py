@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_core.displacement import displacement_of, twist_of
+from push_core.geometry.displacement import displacement_of, twist_of
 
 
 @pytest.fixture

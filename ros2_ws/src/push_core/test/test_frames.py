@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from push_core.frames import rotation, to_body, to_world, wrap_angle
+from push_core.geometry.frames import rotation, to_body, to_world, wrap_angle
 
 ANGLES = st.floats(-1e3, 1e3)
 LENGTHS = st.floats(-10.0, 10.0)

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_core.limit_surface import LimitSurface, uniform_pressure_radius
+from push_core.physics.limit_surface import LimitSurface, uniform_pressure_radius
 
 
 @pytest.fixture(scope='module')

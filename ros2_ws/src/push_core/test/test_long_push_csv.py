@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_core.long_push_csv import COLUMNS, holds_long_pushes, read_long_pushes
-from push_core.long_pushes import FACE_MARGIN, LongPushes
-from push_core.push_csv import COLUMNS as SHORT_COLUMNS
-from push_core.slider import Slider
+from push_core.common.errors import InputError
+from push_core.data.long_push_csv import COLUMNS, holds_long_pushes, read_long_pushes
+from push_core.data.long_pushes import FACE_MARGIN, LongPushes
+from push_core.data.push_csv import COLUMNS as SHORT_COLUMNS
+from push_core.physics.slider import Slider
 
 START = np.array([0.2, -0.1, 0.3])
 END = np.array([0.24, -0.08, 0.5])

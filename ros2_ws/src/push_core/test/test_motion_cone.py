@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
-from push_core.limit_surface import LimitSurface
-from push_core.motion_cone import ContactMode, MotionCone, contact_jacobian
-from push_core.slider import Slider
+from push_core.physics.limit_surface import LimitSurface
+from push_core.physics.motion_cone import ContactMode, MotionCone, contact_jacobian
+from push_core.physics.slider import Slider
 
 MODES = list(ContactMode)
 P_Y = st.floats(-0.045, 0.045)

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from push_core.errors import InputError
-from push_core.push_csv import COLUMNS, read_pushes, write_pushes
-from push_core.push_set import PushSet
+from push_core.common.errors import InputError
+from push_core.data.push_csv import COLUMNS, read_pushes, write_pushes
+from push_core.data.push_set import PushSet
 
 HEADER = ','.join(COLUMNS)
 GOOD_ROW = '0.01,1.5,0.003,0.0001,-0.02,0.004'

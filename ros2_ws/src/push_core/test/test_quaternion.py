@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_core.quaternion import grid_yaw, quaternion_to_yaw, yaw_to_quaternion
+from push_core.geometry.quaternion import grid_yaw, quaternion_to_yaw, yaw_to_quaternion
 
 YAWS = np.random.default_rng(0).uniform(-10.0, 10.0, 20000).tolist()
 

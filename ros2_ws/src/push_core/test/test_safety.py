@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from push_core.actuator import ACTUATORS, Actuator
-from push_core.safety import (
+from push_core.physics.actuator import ACTUATORS, Actuator
+from push_core.physics.safety import (
     ACCELERATION,
     LIMIT_NAMES,
     NOT_FINITE,

@@ -2,8 +2,16 @@ import math
 from dataclasses import FrozenInstanceError, dataclass
 
 import pytest
-from push_core.errors import InputError
-from push_core.settings import Described, checked, flatten, nested, replaced, setting, validate
+from push_core.common.errors import InputError
+from push_core.common.settings import (
+    Described,
+    checked,
+    flatten,
+    nested,
+    replaced,
+    setting,
+    validate,
+)
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from push_core.errors import InputError
-from push_core.slider import Slider
+from push_core.common.errors import InputError
+from push_core.physics.slider import Slider
 
 LENGTHS = st.floats(-1.0, 1.0)
 POSES = st.tuples(LENGTHS, LENGTHS, st.floats(-7.0, 7.0)).map(np.array)

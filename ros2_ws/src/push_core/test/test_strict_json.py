@@ -1,7 +1,7 @@
 import json
 import math
 
-from push_core.strict_json import json_text
+from push_core.common.strict_json import json_text
 
 
 def test_what_is_no_number_is_null_at_any_depth() -> None:

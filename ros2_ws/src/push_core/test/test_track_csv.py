@@ -2,8 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_core.tracks import MAX_KNOTS, by_name, from_csv
+from push_core.common.errors import InputError
+from push_core.tracks.track import MAX_KNOTS, by_name, from_csv
 
 POINTS = np.array([[0.0, 0.0], [0.1, 0.02], [0.2, 0.0], [0.3, -0.02], [0.4, 0.0]])
 GOOD = '0.0,0.0\n0.1,0.0\n0.2,0.1\n0.3,0.1\n'

@@ -2,9 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from push_core import tracks
-from push_core.errors import InputError
-from push_core.tracks import ArcTrack
+from push_core.common.errors import InputError
+from push_core.tracks import track as tracks
+from push_core.tracks.track import ArcTrack
 
 PI = math.pi
 CLOSED = ['eight', 'square']

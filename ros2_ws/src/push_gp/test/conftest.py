@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from push_core.motion_cone import MotionCone
-from push_core.push_csv import read_pushes
-from push_core.push_set import PushSet
-from push_core.slider import Slider
-from push_gp.gp_model import GpModel
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.learn import learned
+from push_core.data.push_csv import read_pushes
+from push_core.data.push_set import PushSet
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_gp.models.gp_model import GpModel
+from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.training.learn import learned
 
 DISTANCE = 0.004
 NOISE = [1e-4, 1e-4, 4e-3]

@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from push_core.push_set import PushSet
-from push_gp.calibration import calibration
-from push_gp.gp_model import GpModel
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.mean_function import ZeroMean
+from push_core.data.push_set import PushSet
+from push_gp.evaluation.calibration import calibration
+from push_gp.models.gp_model import GpModel
+from push_gp.models.mean_function import ZeroMean
+from push_gp.regression.hyperparameters import Hyperparameters
 
 
 @pytest.fixture

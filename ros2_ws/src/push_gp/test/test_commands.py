@@ -2,11 +2,11 @@ import json
 from pathlib import Path
 
 import pytest
-from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
-from push_core.push_csv import write_pushes
-from push_core.push_set import PushSet
-from push_gp import curve, evaluate, train
-from push_gp.model_file import load_model
+from push_core.data.long_push_csv import COLUMNS as LONG_COLUMNS
+from push_core.data.push_csv import write_pushes
+from push_core.data.push_set import PushSet
+from push_gp.commands import curve, evaluate, train
+from push_gp.models.model_file import load_model
 
 Capture = pytest.CaptureFixture[str]
 

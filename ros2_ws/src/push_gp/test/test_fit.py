@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
-from push_core.push_set import PushSet
-from push_gp import fit as fit_module
-from push_gp.fit import fit
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.kernel import correlation, squared_differences
-from push_gp.learn import learned
-from push_gp.likelihood import MarginalLikelihood
-from push_gp.prior import OVER_ZERO, priors
+from push_core.data.push_set import PushSet
+from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import correlation, squared_differences
+from push_gp.regression.likelihood import MarginalLikelihood
+from push_gp.training import fit as fit_module
+from push_gp.training.fit import fit
+from push_gp.training.learn import learned
+from push_gp.training.prior import OVER_ZERO, priors
 from threadpoolctl import threadpool_limits
 
 TRUE = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from push_gp.chebyshev import Interval
-from push_gp.folded_likelihood import FoldedLikelihood
-from push_gp.folded_process import FoldedProcess, conditioned
-from push_gp.gp import GaussianProcess
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.kernel_modes import KernelModes
-from push_gp.likelihood import MarginalLikelihood
+from push_gp.low_rank.chebyshev import Interval
+from push_gp.low_rank.folded_likelihood import FoldedLikelihood
+from push_gp.low_rank.folded_process import FoldedProcess, conditioned
+from push_gp.low_rank.kernel_modes import KernelModes
+from push_gp.regression.gp import GaussianProcess
+from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.likelihood import MarginalLikelihood
 
 SMOOTH = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 ROUGH = Hyperparameters((0.016, 1.0), 1.7e-3, 1.4e-4)

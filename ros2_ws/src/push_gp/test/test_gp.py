@@ -3,11 +3,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from push_core.errors import InputError, RunError
-from push_core.push_set import PushSet
-from push_gp.batched_mean import BatchedMean
-from push_gp.gp import GaussianProcess
-from push_gp.hyperparameters import Hyperparameters
+from push_core.common.errors import InputError, RunError
+from push_core.data.push_set import PushSet
+from push_gp.models.batched_mean import BatchedMean
+from push_gp.regression.gp import GaussianProcess
+from push_gp.regression.hyperparameters import Hyperparameters
 
 HYPERPARAMETERS = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 
@@ -93,7 +93,7 @@ def test_a_batch_of_any_length_answers_alike(
 ) -> None:
     batched = BatchedMean([gp])
     whole = batched.evaluate(points)
-    monkeypatch.setattr('push_gp.batched_mean.CACHED_NUMBERS', 7 * len(gp.outputs))
+    monkeypatch.setattr('push_gp.models.batched_mean.CACHED_NUMBERS', 7 * len(gp.outputs))
     for in_parts, at_once in zip(batched.evaluate(points), whole, strict=True):
         assert np.allclose(in_parts, at_once, rtol=1e-12)
     assert batched.evaluate(points[:0])[0].shape == (0, 1)

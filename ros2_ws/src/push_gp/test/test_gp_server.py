@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 import rclpy
-from push_core.push_set import PushSet
-from push_gp.conversions import pushes_of
-from push_gp.gp_model import GpModel
-from push_gp.model_file import save_model
+from push_core.data.push_set import PushSet
+from push_gp.models.gp_model import GpModel
+from push_gp.models.model_file import save_model
+from push_gp.server.conversions import pushes_of
 from push_msgs.msg import AddedPushes, ModelInfo
 from push_msgs.srv import AddPushes, Predict
 from push_node.ask import ask
@@ -72,7 +72,7 @@ class Client:
 def started(*parameters: str) -> subprocess.Popen[str]:
     options = [option for parameter in parameters for option in ('-p', parameter)]
     return subprocess.Popen(
-        [sys.executable, '-m', 'push_gp.gp_server', '--ros-args', *options],
+        [sys.executable, '-m', 'push_gp.server.gp_server', '--ros-args', *options],
         stderr=subprocess.PIPE,
         text=True,
     )

@@ -2,9 +2,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from push_core.push_set import PushSet
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.likelihood import MarginalLikelihood
+from push_core.data.push_set import PushSet
+from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.likelihood import MarginalLikelihood
 
 HYPERPARAMETERS = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 

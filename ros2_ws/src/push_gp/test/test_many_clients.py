@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_gp.gp_model import GpModel
-from push_gp.model_file import save_model
+from push_gp.models.gp_model import GpModel
+from push_gp.models.model_file import save_model
 
 pytestmark = pytest.mark.processes
 
@@ -22,7 +22,7 @@ PATIENCE = 120.0  # [s]; nothing but a hang takes that long
 def server(model: GpModel, tmp_path: Path) -> Iterator[subprocess.Popen[bytes]]:
     save_model(tmp_path / 'model.npz', model)
     options = ['--ros-args', '-p', f'model:={tmp_path / "model.npz"}']
-    process = subprocess.Popen([sys.executable, '-m', 'push_gp.gp_server', *options])
+    process = subprocess.Popen([sys.executable, '-m', 'push_gp.server.gp_server', *options])
     yield process
     process.terminate()
     assert process.wait(PATIENCE) == 0

@@ -5,16 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.accuracy import accuracy
-from push_core.long_push_csv import read_long_pushes
-from push_core.push_set import PushSet
-from push_core.slider import Slider
-from push_gp.analytical_model import AnalyticalModel
-from push_gp.calibration import calibration
-from push_gp.evaluation import rollout_evaluation
-from push_gp.learn import learned
-from push_gp.model import PushModel
-from push_gp.sampling import nested_rows, subset_rows
+from push_core.data.accuracy import accuracy
+from push_core.data.long_push_csv import read_long_pushes
+from push_core.data.push_set import PushSet
+from push_core.physics.slider import Slider
+from push_gp.evaluation.calibration import calibration
+from push_gp.evaluation.evaluation import rollout_evaluation
+from push_gp.models.analytical_model import AnalyticalModel
+from push_gp.models.model import PushModel
+from push_gp.models.sampling import nested_rows, subset_rows
+from push_gp.training.learn import learned
 
 
 def split(measured: PushSet, rows: np.ndarray) -> tuple[PushSet, PushSet]:

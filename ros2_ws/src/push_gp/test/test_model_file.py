@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from push_core.errors import InputError
-from push_core.push_set import PushSet
-from push_gp.gp_model import GpModel
-from push_gp.learn import learned
-from push_gp.model_file import load_model, save_model
-from push_gp.model_format import VERSION
-from push_gp.sealed_archive import read_sealed, write_sealed
+from push_core.common.errors import InputError
+from push_core.data.push_set import PushSet
+from push_gp.models.gp_model import GpModel
+from push_gp.models.model_file import load_model, save_model
+from push_gp.models.model_format import VERSION
+from push_gp.models.sealed_archive import read_sealed, write_sealed
+from push_gp.training.learn import learned
 
 
 @pytest.fixture(scope='module')

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from push_core.errors import InputError, RunError
-from push_core.push_set import P_Y_LIMIT, PushSet
-from push_gp import gp
-from push_gp.analytical_model import AnalyticalModel
-from push_gp.gp import factor
-from push_gp.gp_model import GpModel
-from push_gp.model_file import load_model, save_model
-from push_gp.model_server import ModelServer
+from push_core.common.errors import InputError, RunError
+from push_core.data.push_set import P_Y_LIMIT, PushSet
+from push_gp.models.analytical_model import AnalyticalModel
+from push_gp.models.gp_model import GpModel
+from push_gp.models.model_file import load_model, save_model
+from push_gp.regression import gp
+from push_gp.regression.gp import factor
+from push_gp.server.model_server import ModelServer
 
 NO_PUSHES = PushSet(np.zeros(0), np.zeros(0), np.zeros((0, 3)), 0.004)
 

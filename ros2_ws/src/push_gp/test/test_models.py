@@ -2,16 +2,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.errors import InputError, RunError
-from push_core.push_set import PushSet
-from push_core.slider import Slider
-from push_gp.analytical_model import AnalyticalModel
-from push_gp.domain import COVERED
-from push_gp.fit_cone import fitted_cone
-from push_gp.gp_model import GpModel
-from push_gp.learn import learned
-from push_gp.mean_function import ConeMean, ZeroMean
-from push_gp.model import PushModel
+from push_core.common.errors import InputError, RunError
+from push_core.data.push_set import PushSet
+from push_core.physics.slider import Slider
+from push_gp.low_rank.domain import COVERED
+from push_gp.models.analytical_model import AnalyticalModel
+from push_gp.models.gp_model import GpModel
+from push_gp.models.mean_function import ConeMean, ZeroMean
+from push_gp.models.model import PushModel
+from push_gp.training.fit_cone import fitted_cone
+from push_gp.training.learn import learned
 
 Queries = tuple[np.ndarray, np.ndarray]
 

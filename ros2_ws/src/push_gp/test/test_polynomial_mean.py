@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
-from push_core.push_set import P_Y_LIMIT
-from push_gp.batched_mean import BatchedMean
-from push_gp.gp import GaussianProcess
-from push_gp.hyperparameters import Hyperparameters
-from push_gp.mean_function import ZeroMean
-from push_gp.polynomial_mean import summed_up
-from push_gp.polynomials import QUERIES_AT_ONCE, Polynomials, added
-from push_gp.posterior_mean import PosteriorMean
+from push_core.data.push_set import P_Y_LIMIT
+from push_gp.models.batched_mean import BatchedMean
+from push_gp.models.mean_function import ZeroMean
+from push_gp.models.polynomial_mean import summed_up
+from push_gp.models.polynomials import QUERIES_AT_ONCE, Polynomials, added
+from push_gp.models.posterior_mean import PosteriorMean
+from push_gp.regression.gp import GaussianProcess
+from push_gp.regression.hyperparameters import Hyperparameters
 
 LONG, SHORT = (0.02, 0.7), (0.003, 0.2)
 CORNERS = np.array([[y, beta] for y in (-P_Y_LIMIT, P_Y_LIMIT) for beta in (1e-9, np.pi - 1e-9)])

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from push_core.long_pushes import LongPushes
-from push_core.slider import Slider
-from push_gp.analytical_model import AnalyticalModel
-from push_gp.rollout import rolled_out
+from push_core.data.long_pushes import LongPushes
+from push_core.physics.slider import Slider
+from push_gp.evaluation.rollout import rolled_out
+from push_gp.models.analytical_model import AnalyticalModel
 
 SLIDER = Slider()
 

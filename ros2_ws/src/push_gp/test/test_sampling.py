@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_core.push_set import PushSet
-from push_gp.sampling import die_rows, nested_rows, random_rows, subset_rows
+from push_core.common.errors import InputError
+from push_core.data.push_set import PushSet
+from push_gp.models.sampling import die_rows, nested_rows, random_rows, subset_rows
 
 
 def test_a_random_choice_depends_on_the_seed_alone(pushes: PushSet) -> None:

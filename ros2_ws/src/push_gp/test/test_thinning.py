@@ -1,6 +1,6 @@
 import numpy as np
-from push_core.push_set import HALF_FACE
-from push_gp.thinning import kept_rows
+from push_core.data.push_set import HALF_FACE
+from push_gp.models.thinning import kept_rows
 
 
 def test_of_the_two_closest_the_older_goes() -> None:

@@ -7,20 +7,20 @@ from typing import Any
 
 import numpy as np
 import pytest
-from push_core.frames import Array
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
-from push_core.tracks import by_name
-from push_mpc.controller import Controller, Mode, Tick
-from push_mpc.node_settings import MpcSettings, mpc_settings
-from push_mpc.nominal import Plan, flat_plan
-from push_mpc.planning import planned
-from push_mpc.stages import Stages
-from push_mpc.surrogate import Grid, Table
-from push_mpc.tracking_qp import Solution, TrackingQP
-from push_sim.perturbation import Kind, Perturbation
-from push_sim.plant import Plant
-from push_sim.settings import profile
+from push_core.geometry.frames import Array
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_core.tracks.track import by_name
+from push_mpc.loop.controller import Controller, Mode, Tick
+from push_mpc.plan.nominal import Plan, flat_plan
+from push_mpc.plan.planning import planned
+from push_mpc.qp.stages import Stages
+from push_mpc.qp.tracking_qp import Solution, TrackingQP
+from push_mpc.settings.node_settings import MpcSettings, mpc_settings
+from push_mpc.table.surrogate import Grid, Table
+from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.plant import Plant
+from push_sim.settings.plant_settings import profile
 from scipy import sparse
 
 Differences = Callable[[Callable[[Array], Array], Array, float], Array]

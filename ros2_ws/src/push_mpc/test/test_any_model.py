@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from push_core.errors import InputError
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
-from push_mpc.controller import Controller, Mode
-from push_mpc.node_settings import mpc_settings
-from push_mpc.planning import planned
-from push_mpc.surrogate import Grid, Table
+from push_core.common.errors import InputError
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_mpc.loop.controller import Controller, Mode
+from push_mpc.plan.planning import planned
+from push_mpc.settings.node_settings import mpc_settings
+from push_mpc.table.surrogate import Grid, Table
 
 GRID = Grid(np.linspace(-0.045, 0.045, 7), np.linspace(0.15, np.pi - 0.15, 9))
 CONE = MotionCone(Slider()).evaluate(*GRID.points())

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.motion_cone import MotionCone
-from push_core.tracks import by_name
-from push_mpc.consistent_plan import consistent_plan
-from push_mpc.dynamics import TravelMotion
-from push_mpc.nominal import flat_plan
+from push_core.physics.motion_cone import MotionCone
+from push_core.tracks.track import by_name
+from push_mpc.motion.dynamics import TravelMotion
+from push_mpc.plan.consistent_plan import consistent_plan
+from push_mpc.plan.nominal import flat_plan
 from scipy.interpolate import CubicSpline
 
 SPEED = 0.08
@@ -65,5 +65,5 @@ def test_a_model_that_makes_no_sense_leaves_the_plan_as_it_is(flat, slider) -> N
 
 def test_a_plan_that_slides_a_lot_is_not_taken(flat, plan, motion, monkeypatch) -> None:
     asked = np.abs(plan.input - flat.input).max() / SPEED
-    monkeypatch.setattr('push_mpc.consistent_plan._LARGEST_CHANGE', 0.8 * asked)
+    monkeypatch.setattr('push_mpc.plan.consistent_plan._LARGEST_CHANGE', 0.8 * asked)
     assert consistent_plan(flat, motion) is flat

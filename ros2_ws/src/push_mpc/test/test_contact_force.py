@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from push_core.frames import rotation
-from push_core.motion_cone import MotionCone
-from push_mpc.contact_force import ContactForce
-from push_mpc.dynamics import rates
+from push_core.geometry.frames import rotation
+from push_core.physics.motion_cone import MotionCone
+from push_mpc.motion.contact_force import ContactForce
+from push_mpc.motion.dynamics import rates
 
 
 @pytest.fixture(scope='module')

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from push_mpc.controller import Controller, Mode, horizon_stride
-from push_mpc.node_settings import mpc_settings
-from push_mpc.planning import planned
-from push_mpc.steering import Move
+from push_mpc.loop.controller import Controller, Mode, horizon_stride
+from push_mpc.plan.planning import planned
+from push_mpc.qp.steering import Move
+from push_mpc.settings.node_settings import mpc_settings
 
 SETTINGS = mpc_settings('irb120')
 MODES = {Mode.TRACKING, Mode.RECONTACT, Mode.DONE, Mode.STOPPED}

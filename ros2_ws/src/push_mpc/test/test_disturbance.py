@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from push_core.frames import rotation
-from push_mpc.disturbance import Disturbance
-from push_mpc.surrogate import Table
+from push_core.geometry.frames import rotation
+from push_mpc.estimate.disturbance import Disturbance
+from push_mpc.table.surrogate import Table
 
 LENGTH = 0.02
 MISSED = np.array([0.03, -0.05, 1.5])

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_mpc.dynamics import discretised, linearised, rates
+from push_mpc.motion.dynamics import discretised, linearised, rates
 from scipy.linalg import expm
 
 TIP_X = -0.05

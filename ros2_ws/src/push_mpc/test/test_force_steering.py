@@ -4,15 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.limit_surface import LimitSurface
-from push_core.motion_cone import ContactMode
-from push_core.tracks import by_name
-from push_mpc.contact_force import ContactForce
-from push_mpc.controller import Mode, horizon_stride
-from push_mpc.force_steering import FAMILY, ForceSteering
-from push_mpc.node_settings import mpc_settings
-from push_mpc.nominal import flat_plan
-from push_sim.perturbation import Kind
+from push_core.physics.limit_surface import LimitSurface
+from push_core.physics.motion_cone import ContactMode
+from push_core.tracks.track import by_name
+from push_mpc.loop.controller import Mode, horizon_stride
+from push_mpc.motion.contact_force import ContactForce
+from push_mpc.plan.nominal import flat_plan
+from push_mpc.qp.force_steering import FAMILY, ForceSteering
+from push_mpc.settings.node_settings import mpc_settings
+from push_sim.plant.perturbation import Kind
 
 SETTINGS = replace(
     mpc_settings('irb120'), controller='analytical', good_poses=3, consistent_plan=False

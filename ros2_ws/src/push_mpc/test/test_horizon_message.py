@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from push_mpc.controller import Mode
-from push_mpc.horizon_message import HorizonMessage
-from push_sim.perturbation import Kind
+from push_mpc.loop.controller import Mode
+from push_mpc.node.horizon_message import HorizonMessage
+from push_sim.plant.perturbation import Kind
 
 
 @pytest.fixture

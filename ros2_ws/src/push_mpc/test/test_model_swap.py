@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
-from push_mpc.controller import Controller, Mode
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_mpc.loop.controller import Controller, Mode
 
 
 @pytest.fixture

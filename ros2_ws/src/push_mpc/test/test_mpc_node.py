@@ -11,9 +11,9 @@ import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
-from push_mpc.node_settings import mpc_settings
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_mpc.settings.node_settings import mpc_settings
 from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node import qos
@@ -138,7 +138,7 @@ def started() -> Iterator[Callable[..., 'subprocess.Popen[str]']]:
         given = [*parameters, f'pose_loss:={pose_loss}']
         options = [option for parameter in given for option in ('-p', parameter)]
         process = subprocess.Popen(
-            [sys.executable, '-m', 'push_mpc.mpc_node', '--ros-args', *options],
+            [sys.executable, '-m', 'push_mpc.node.mpc_node', '--ros-args', *options],
             stderr=subprocess.PIPE,
             text=True,
         )

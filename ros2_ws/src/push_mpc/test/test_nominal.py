@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.motion_cone import ContactMode, MotionCone
-from push_core.tracks import ArcTrack, SplineTrack, by_name
-from push_mpc.dynamics import rates
-from push_mpc.nominal import TooTightError, flat_plan
+from push_core.physics.motion_cone import ContactMode, MotionCone
+from push_core.tracks.track import ArcTrack, SplineTrack, by_name
+from push_mpc.motion.dynamics import rates
+from push_mpc.plan.nominal import TooTightError, flat_plan
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
 

@@ -6,12 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_core.motion_cone import MotionCone
-from push_mpc.controller import Mode
-from push_mpc.dynamics import rates
-from push_mpc.node_settings import mpc_settings
-from push_mpc.planning import planned
+from push_core.common.errors import InputError
+from push_core.physics.motion_cone import MotionCone
+from push_mpc.loop.controller import Mode
+from push_mpc.motion.dynamics import rates
+from push_mpc.plan.planning import planned
+from push_mpc.settings.node_settings import mpc_settings
 from scipy.integrate import solve_ivp
 
 SETTINGS = replace(mpc_settings('irb120'), speed=0.1, good_poses=3)

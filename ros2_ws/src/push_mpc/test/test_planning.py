@@ -1,10 +1,10 @@
 from dataclasses import replace
 
 import pytest
-from push_core.errors import InputError
-from push_mpc.controller import horizon_stride
-from push_mpc.node_settings import mpc_settings
-from push_mpc.planning import planned
+from push_core.common.errors import InputError
+from push_mpc.loop.controller import horizon_stride
+from push_mpc.plan.planning import planned
+from push_mpc.settings.node_settings import mpc_settings
 
 SETTINGS = mpc_settings('irb120')
 

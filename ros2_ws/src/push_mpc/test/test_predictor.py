@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from push_core.actuator import ACTUATORS
-from push_core.frames import rotation
-from push_mpc.predictor import Predictor
-from push_mpc.surrogate import Grid, Table
+from push_core.geometry.frames import rotation
+from push_core.physics.actuator import ACTUATORS
+from push_mpc.estimate.predictor import Predictor
+from push_mpc.table.surrogate import Grid, Table
 
 ROBOT = ACTUATORS['irb120']
 DELAY = ROBOT.dead_time + ROBOT.lag

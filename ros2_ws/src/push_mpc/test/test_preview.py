@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
-from push_core.motion_cone import MotionCone
-from push_mpc.dynamics import TravelMotion, rates
-from push_mpc.preview import Preview
+from push_core.physics.motion_cone import MotionCone
+from push_mpc.motion.dynamics import TravelMotion, rates
+from push_mpc.qp.preview import Preview
 
 STRIDE = 3
 

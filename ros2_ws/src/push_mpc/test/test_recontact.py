@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from push_mpc.controller import Mode
-from push_mpc.recontact import RecontactSettings, approach, departure, is_apart
-from push_sim.perturbation import Kind
+from push_mpc.loop.controller import Mode
+from push_mpc.settings.recontact import RecontactSettings, approach, departure, is_apart
+from push_sim.plant.perturbation import Kind
 
 SETTINGS = RecontactSettings()
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from push_core.errors import InputError
-from push_mpc.surrogate import Grid, Table
+from push_core.common.errors import InputError
+from push_mpc.table.surrogate import Grid, Table
 
 P_Y = st.floats(-0.07, 0.07)
 BETA = st.floats(-0.5, 3.6)

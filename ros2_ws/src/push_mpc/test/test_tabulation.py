@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from push_mpc.domain import Domain
-from push_mpc.tabulation import (
+from push_mpc.table.domain import Domain
+from push_mpc.table.tabulation import (
     CHECKS,
     GRIDS,
     MOST_AT_ONCE,

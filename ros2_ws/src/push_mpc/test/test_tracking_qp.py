@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from push_mpc.stages import NX, InputSpace, Stages
-from push_mpc.tracking_qp import TrackingQP
-from push_sim.perturbation import Kind
+from push_mpc.qp.stages import NX, InputSpace, Stages
+from push_mpc.qp.tracking_qp import TrackingQP
+from push_sim.plant.perturbation import Kind
 
 NU = 2
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))

@@ -1,4 +1,4 @@
-from push_mpc.watchdog import Watchdog
+from push_mpc.node.watchdog import Watchdog
 
 
 def test_a_process_that_looks_in_time_never_slept() -> None:

@@ -2,8 +2,8 @@
 
 from typing import Any, TypeVar
 
-from push_core.errors import InputError
-from push_core.settings import Described, flatten, replaced
+from push_core.common.errors import InputError
+from push_core.common.settings import Described, flatten, replaced
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
@@ -16,7 +16,7 @@ def declared(node: Node, defaults: T) -> T:
 
     Args:
         node: the node that owns the parameters.
-        defaults: settings made with `push_core.settings`.
+        defaults: settings made with `push_core.common.settings`.
 
     Returns:
         The settings with the overrides of command line and parameter file.

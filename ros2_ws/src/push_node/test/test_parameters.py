@@ -2,8 +2,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from push_core.errors import InputError
-from push_core.settings import nested, setting, validate
+from push_core.common.errors import InputError
+from push_core.common.settings import nested, setting, validate
 from push_node.parameters import declared, override
 from rclpy.parameter import Parameter
 

@@ -14,7 +14,7 @@ PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 PROGRAM = """
 import os
 import sys
-from push_core.errors import InputError, PushError, RunError
+from push_core.common.errors import InputError, PushError, RunError
 from push_node.spin import request_stop, run_node
 from rclpy.node import Node
 

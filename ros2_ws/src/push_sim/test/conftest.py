@@ -5,25 +5,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from push_core.frames import Array, rotation
-from push_core.long_push_csv import COLUMNS as LONG_COLUMNS
-from push_core.push_csv import write_pushes
-from push_core.push_set import PushSet
-from push_core.settings import replaced
-from push_core.slider import Slider
-from push_sim.collector import Collector
-from push_sim.plant import Plant
-from push_sim.push_design import PushDesign
-from push_sim.push_sampling import uniform
-from push_sim.replay_long import replay_long
-from push_sim.replay_run import replay_run
-from push_sim.robot_run import COLUMNS as RUN_COLUMNS
-from push_sim.robot_run import RobotRun
-from push_sim.run_windows import INTERVAL, Windows
-from push_sim.settings import SimSettings, WorldSettings, profile
-from push_sim.tip_replay import commanded_tip
-from push_sim.world import World
-from push_sim.worlds import make_world
+from push_core.common.settings import replaced
+from push_core.data.long_push_csv import COLUMNS as LONG_COLUMNS
+from push_core.data.push_csv import write_pushes
+from push_core.data.push_set import PushSet
+from push_core.geometry.frames import Array, rotation
+from push_core.physics.slider import Slider
+from push_sim.collect.collector import Collector
+from push_sim.collect.push_design import PushDesign
+from push_sim.collect.push_sampling import uniform
+from push_sim.measured.replay_long import replay_long
+from push_sim.measured.replay_run import replay_run
+from push_sim.measured.robot_run import COLUMNS as RUN_COLUMNS
+from push_sim.measured.robot_run import RobotRun
+from push_sim.measured.run_windows import INTERVAL, Windows
+from push_sim.measured.tip_replay import commanded_tip
+from push_sim.plant.plant import Plant
+from push_sim.settings.plant_settings import SimSettings, WorldSettings, profile
+from push_sim.worlds.common.world import World
+from push_sim.worlds.engines import make_world
 
 ENGINES = ('bullet', 'quasi_static')
 POSE = np.array([0.1, -0.2, 0.3])

@@ -1,12 +1,12 @@
 import json
 
 import pytest
-from push_core.settings import replaced
-from push_core.slider import Slider
-from push_sim import plant_speed
-from push_sim.bench import main
-from push_sim.plant_speed import memory_growth
-from push_sim.settings import profile
+from push_core.common.settings import replaced
+from push_core.physics.slider import Slider
+from push_sim.commands import plant_speed
+from push_sim.commands.bench import main
+from push_sim.commands.plant_speed import memory_growth
+from push_sim.settings.plant_settings import profile
 
 
 def test_it_measures_and_says_so_in_one_json_object(capsys, monkeypatch) -> None:

@@ -2,11 +2,11 @@ import math
 
 import numpy as np
 import pytest
-from push_core.frames import to_body
-from push_core.motion_cone import MotionCone
-from push_core.slider import Slider
-from push_sim.bullet_world import BulletWorld
-from push_sim.settings import WorldSettings
+from push_core.geometry.frames import to_body
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.worlds.bullet.bullet_world import BulletWorld
 
 ORIGIN = np.zeros(3)
 

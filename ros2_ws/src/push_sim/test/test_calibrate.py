@@ -6,17 +6,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from push_core.slider import Slider
-from push_sim.bootstrap import bootstrap_deviation
-from push_sim.calibrate import main
-from push_sim.calibration import Calibration, calibration, rounded
-from push_sim.calibration_json import calibration_json
-from push_sim.calibration_table import calibration_table
-from push_sim.measured_data import read_measured_data
-from push_sim.parameter_file import parameter_file
-from push_sim.settings import WorldSettings, profile
-from push_sim.split import split
-from push_sim.workers import workers
+from push_core.common.workers import workers
+from push_core.physics.slider import Slider
+from push_sim.calibration.as_json import calibration_json
+from push_sim.calibration.as_table import calibration_table
+from push_sim.calibration.fit import Calibration, calibration, rounded
+from push_sim.calibration.parameter_file import parameter_file
+from push_sim.commands.calibrate import main
+from push_sim.fitting.bootstrap import bootstrap_deviation
+from push_sim.measured.measured_data import read_measured_data
+from push_sim.measured.split import split
+from push_sim.settings.plant_settings import WorldSettings, profile
 
 # the engine without inertia is as good a plant to be found again, and ten times faster
 START = replace(profile('irb120'), world=WorldSettings(engine='quasi_static'))

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.die import five_of_a_die
-from push_core.motion_cone import MotionCone
-from push_core.push_csv import read_pushes
-from push_core.push_set import PushSet
-from push_core.slider import Slider
-from push_sim.bullet_world import BulletWorld
-from push_sim.collect import Asked, collect, collected, main
-from push_sim.push_design import PushDesign
-from push_sim.quick_world import quick_world
-from push_sim.settings import profile
-from push_sim.short_push import short_push
+from push_core.data.die import five_of_a_die
+from push_core.data.push_csv import read_pushes
+from push_core.data.push_set import PushSet
+from push_core.physics.motion_cone import MotionCone
+from push_core.physics.slider import Slider
+from push_sim.collect.push_design import PushDesign
+from push_sim.collect.short_push import short_push
+from push_sim.commands.collect import Asked, collect, collected, main
+from push_sim.settings.plant_settings import profile
+from push_sim.worlds.bullet.bullet_world import BulletWorld
+from push_sim.worlds.quick_world import quick_world
 
 
 def test_the_same_seed_collects_the_same_file(tmp_path: Path) -> None:

@@ -2,8 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from push_core.actuator import ACTUATORS
-from push_sim.driver import Driver
+from push_core.physics.actuator import ACTUATORS
+from push_sim.plant.driver import Driver
 
 STEP = 0.001
 FAST = np.array([0.2, 0.0])

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.accuracy import accuracy
-from push_core.slider import Slider
-from push_sim.measured_data import MeasuredData, read_measured_data
-from push_sim.replay_long import replay_long
-from push_sim.replay_short import replay_short
-from push_sim.settings import profile
-from push_sim.tip_replay import rms_coordinate, tip_gap
+from push_core.data.accuracy import accuracy
+from push_core.physics.slider import Slider
+from push_sim.measured.measured_data import MeasuredData, read_measured_data
+from push_sim.measured.replay_long import replay_long
+from push_sim.measured.replay_short import replay_short
+from push_sim.measured.tip_replay import rms_coordinate, tip_gap
+from push_sim.settings.plant_settings import profile
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR', Path(__file__).parents[5] / 'shared' / 'data'))
 EVERY = 25

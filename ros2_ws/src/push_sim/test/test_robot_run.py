@@ -4,9 +4,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_sim.measured_data import read_measured_data
-from push_sim.robot_run import COLUMNS, read_robot_run
+from push_core.common.errors import InputError
+from push_sim.measured.measured_data import read_measured_data
+from push_sim.measured.robot_run import COLUMNS, read_robot_run
 
 HEADER = ','.join(COLUMNS)
 ROWS = [

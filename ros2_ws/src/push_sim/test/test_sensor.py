@@ -2,8 +2,8 @@ import math
 
 import numpy as np
 import pytest
-from push_sim.sensor import FREEZE_DURATION, Observation, Sensor
-from push_sim.settings import SensorSettings
+from push_sim.plant.sensor import FREEZE_DURATION, Observation, Sensor
+from push_sim.settings.plant_settings import SensorSettings
 
 POSE, TIP = np.array([0.1, -0.2, 3.0]), np.array([0.05, -0.2])
 

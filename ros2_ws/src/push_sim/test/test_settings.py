@@ -1,9 +1,9 @@
 import pytest
-from push_core.errors import InputError
-from push_core.settings import flatten, replaced
-from push_sim.node_settings import NodeSettings, node_settings
-from push_sim.settings import PROFILES, profile
-from push_sim.sim_node import main
+from push_core.common.errors import InputError
+from push_core.common.settings import flatten, replaced
+from push_sim.node.node_settings import NodeSettings, node_settings
+from push_sim.node.sim_node import main
+from push_sim.settings.plant_settings import PROFILES, profile
 
 
 @pytest.mark.parametrize(

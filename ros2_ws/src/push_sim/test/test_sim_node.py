@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.slider import Slider
+from push_core.physics.slider import Slider
 from push_msgs.msg import Perturbation
 from push_msgs.srv import Perturb, Reset
 from push_node.ask import ask
 from push_node.qos import COMMAND, EVENT, POSE
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
-from push_sim.plant import Plant
-from push_sim.settings import profile
+from push_sim.plant.plant import Plant
+from push_sim.settings.plant_settings import profile
 from rclpy.node import Node
 
 pytestmark = pytest.mark.processes
@@ -88,7 +88,7 @@ def forget(client: Client) -> None:
 
 def start_node(*parameters: str) -> subprocess.Popen[str]:
     arguments = [argument for parameter in parameters for argument in ('-p', parameter)]
-    command = [sys.executable, '-m', 'push_sim.sim_node', '--ros-args', *arguments]
+    command = [sys.executable, '-m', 'push_sim.node.sim_node', '--ros-args', *arguments]
     return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from push_core.quaternion import quaternion_to_yaw
-from push_sim.transforms import Transforms
+from push_core.geometry.quaternion import quaternion_to_yaw
+from push_sim.node.transforms import Transforms
 
 
 def test_object_and_tip_are_frames_of_the_world() -> None:

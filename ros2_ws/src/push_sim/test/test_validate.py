@@ -6,12 +6,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.actuator import ActuatorSettings
-from push_sim.actuator_fit import fitted_actuator
-from push_sim.measured_data import read_measured_data
-from push_sim.settings import profile
-from push_sim.tip_replay import rms_coordinate, tip_gap
-from push_sim.validate import main
+from push_core.physics.actuator import ActuatorSettings
+from push_sim.commands.validate import main
+from push_sim.fitting.actuator_fit import fitted_actuator
+from push_sim.measured.measured_data import read_measured_data
+from push_sim.measured.tip_replay import rms_coordinate, tip_gap
+from push_sim.settings.plant_settings import profile
 
 ACTUATOR = replace(profile('irb120').actuator, dead_time=0.0713, lag=0.0334)
 PLANT = replace(profile('ideal'), actuator=ACTUATOR)

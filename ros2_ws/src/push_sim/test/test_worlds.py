@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from push_core.errors import InputError
-from push_core.frames import rotation, to_body, to_world
-from push_core.limit_surface import GRAVITY
-from push_sim.settings import WorldSettings
-from push_sim.world import World
-from push_sim.worlds import make_world
+from push_core.common.errors import InputError
+from push_core.geometry.frames import rotation, to_body, to_world
+from push_core.physics.limit_surface import GRAVITY
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.worlds.common.world import World
+from push_sim.worlds.engines import make_world
 
 ORIGIN = np.zeros(3)
 PUSHES = [(0.01, (0.02, 0.01)), (-0.03, (0.05, 0.02)), (0.0, (0.05, -0.01))]

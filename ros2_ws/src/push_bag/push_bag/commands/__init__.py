@@ -1,0 +1,1 @@
+"""The commands of this package: score, info, export, replay, live, import-csv."""

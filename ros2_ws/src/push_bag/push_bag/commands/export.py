@@ -1,0 +1,86 @@
+"""`push_bag export RUN --csv|--parquet -o FILE`: the run as one table for other programs."""
+
+import argparse
+import csv
+import io
+import math
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from push_core.common.atomic_file import write_atomically
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError
+
+from push_bag.run.run_reader import read_run
+from push_bag.score.tick_table import Table, tick_table
+
+EPILOG = """
+One row for each tick of the controller, in SI units, which the names of the columns end with; v_n
+and v_t, the input and the nominal one, are in m/s. Empty (CSV) or null (Parquet) where a tick has
+no such figure. --parquet needs pyarrow: `make setup EXTRA=parquet`.
+Example: ros2 run push_bag export runs/RUN --csv -o run.csv
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Exports a run."""
+    return run_command(_parser(), _work, argv)
+
+
+def csv_bytes(table: Table) -> bytes:
+    """The table as CSV; every number comes back as it was."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator='\n')
+    writer.writerow(table)
+    columns = (_texts(column) for column in table.values())
+    writer.writerows(zip(*columns, strict=True))
+    return text.getvalue().encode()
+
+
+def parquet_bytes(table: Table) -> bytes:
+    """The table as Parquet.
+
+    Raises:
+        InputError: pyarrow is not installed.
+    """
+    try:
+        # large, and only this option needs it
+        import pyarrow  # noqa: PLC0415
+        import pyarrow.parquet  # noqa: PLC0415
+    except ImportError:
+        raise InputError('--parquet needs pyarrow: run `make setup EXTRA=parquet`') from None
+    columns = {name: pyarrow.array(each, from_pandas=True) for name, each in table.items()}
+    sink = io.BytesIO()
+    pyarrow.parquet.write_table(pyarrow.table(columns), sink)
+    return sink.getvalue()
+
+
+def _texts(column: NDArray[np.float64] | NDArray[np.int64]) -> list[str]:
+    return ['' if math.isnan(value) else repr(value) for value in column.tolist()]
+
+
+def _parser() -> Parser:
+    parser = Parser('Writes a run as one table, a row for each tick.', EPILOG)
+    parser.add_argument('run', type=Path, help='run folder or MCAP file')
+    kind = parser.add_mutually_exclusive_group(required=True)
+    for name, write in (('csv', csv_bytes), ('parquet', parquet_bytes)):
+        kind.add_argument(
+            f'--{name}', dest='write', action='store_const', const=write, help=f'as {name.upper()}'
+        )
+    parser.add_argument(
+        '-o', '--output', type=Path, required=True, metavar='FILE', help='the file to write'
+    )
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    table = tick_table(read_run(arguments.run))
+    write_atomically(arguments.output, arguments.write(table))
+    sys.stdout.write(f'{len(table["t_s"])} rows\n{arguments.output}\n')
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,78 @@
+"""`push_bag import-csv ROBOT_RUN.csv -o RUN`: a run of the real cell as a bag like any other.
+
+The file has poses and positions at about 500 Hz and no reference. The line that was followed is
+the world's x axis. It is timed here by the object's own progress along it: where the reference
+ought to have been at each instant is not on record, so that only what is across the line and the
+heading can be scored, and the tracking error of the score is the lateral one.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from push_core.common.command_line import Parser, run_command
+from push_core.physics.slider import Slider
+
+from push_bag.file.whole_bag import whole_bag
+from push_bag.robot_csv.robot_run import read_robot_run
+from push_bag.robot_csv.robot_run_messages import messages, topics
+
+EPILOG = """
+Columns: t_s, slider_x_m, slider_y_m, slider_theta_rad, pusher_cmd_x_m, pusher_cmd_y_m, pusher_x_m,
+pusher_y_m. The line that was followed is the x axis, timed by the object's own progress: the score
+tells what lies across it. Commanded velocities are the slopes of the commanded positions.
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Imports a run."""
+    return run_command(_parser(), _work, argv)
+
+
+def import_run(path: Path, folder: Path, slider: Slider) -> int:
+    """Writes a bag of a measured run.
+
+    Args:
+        path: of the CSV file.
+        folder: of the new run; must not exist yet.
+        slider: what was pushed, and with what.
+
+    Returns:
+        Number of messages written.
+
+    Raises:
+        InputError: the file is not such a run, or the folder exists already.
+        RunError: the bag cannot be written.
+    """
+    run = read_robot_run(path)
+    facts = {'mode': 'robot', 'profile': 'robot', 'imported_from': path.name}
+    with whole_bag(folder, facts, {}) as writer:
+        for topic in topics():
+            writer.add_topic(*topic)
+        numbers = dict.fromkeys(writer.counts, 0)
+        for name, data, stamp in messages(run, slider):
+            numbers[name] += 1
+            writer.write(name, data, stamp, stamp, numbers[name])
+    return sum(numbers.values())
+
+
+def _parser() -> Parser:
+    parser = Parser('Makes a bag of a run of the real cell.', EPILOG)
+    parser.add_argument('file', type=Path, metavar='ROBOT_RUN.csv')
+    parser.add_argument(
+        '-o', '--output', type=Path, required=True, metavar='RUN', help='new run folder'
+    )
+    parser.add_argument('--side', type=float, default=Slider().side, help='of the square [m]')
+    parser.add_argument('--tip-radius', type=float, default=Slider().tip_radius, help='[m]')
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    slider = Slider(side=arguments.side, tip_radius=arguments.tip_radius)
+    count = import_run(arguments.file, arguments.output, slider)
+    sys.stdout.write(f'{count} messages\n{arguments.output}\n')
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,115 @@
+"""`push_bag score RUN…`: the score of runs as a table, as JSON, as a report, held to bounds."""
+
+import argparse
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+from push_core.common.atomic_file import write_atomically
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError
+from push_core.common.strict_json import json_text
+from tqdm import tqdm
+
+from push_bag.run.run_reader import read_run
+from push_bag.run.series import RunSeries
+from push_bag.score.figures import bound, check_bounds
+from push_bag.score.runs_table import Scores, comparison_table, runs_object, runs_table
+from push_bag.score.score import score_run, score_series
+from push_bag.score.score_table import score_table
+
+T = TypeVar('T')
+
+EPILOG = """
+examples:
+  ros2 run push_bag score runs/RUN
+  ros2 run push_bag score runs/A runs/B --html report.html
+  ros2 run push_bag score runs/*                      a line for each run, their mean and spread
+  ros2 run push_bag score runs/A runs/B --compare     figure by figure, with the difference
+  ros2 run push_bag score runs/RUN --fail-above incomplete=0 --fail-above mean=3.0
+  ros2 run push_bag score runs/RUN --fail-above solve_ms.p99=2 --fail-above lost=0
+
+A figure is named by its path in the JSON; mean, rms, p95 and max alone are those of the tracking
+error; `lost` is the number of lost messages, `incomplete` is 1 for a run that was not completed
+and 0 for one that was. What each means: docs/scoring.md.
+Exit status: 0 scored, 1 a figure is above its bound, 2 the command or a bag was wrong.
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Scores runs."""
+    return run_command(_parser(), _work, argv)
+
+
+def _parser() -> Parser:
+    parser = Parser('Scores recorded runs.', EPILOG)
+    parser.add_argument(
+        'runs', type=Path, nargs='+', metavar='RUN', help='run folder or MCAP file'
+    )
+    parser.add_argument('--json', action='store_true', help='print one JSON object instead')
+    parser.add_argument(
+        '--html',
+        type=Path,
+        metavar='FILE',
+        help='also write a report; several runs over each other',
+    )
+    parser.add_argument('--compare', action='store_true', help='two runs, figure by figure')
+    parser.add_argument(
+        '--fail-above',
+        action='append',
+        default=[],
+        metavar='FIGURE=VALUE',
+        help='end with status 1 if a figure of a run is higher; repeatable',
+    )
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    bounds = [bound(text) for text in arguments.fail_above]
+    if arguments.compare and (len(arguments.runs) != 2 or arguments.json):
+        raise InputError('--compare takes two runs and prints a table; --json has all figures')
+    scores = list(zip(map(str, arguments.runs), _scored(arguments), strict=True))
+    sys.stdout.write(_text(arguments, scores))
+    check_bounds(scores, bounds)
+
+
+def _scored(arguments: argparse.Namespace) -> list[dict[str, Any]]:
+    """The score of each run; their report is written where one was asked for."""
+    paths = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
+    if arguments.html is None:
+        return [_of(path, score_run) for path in paths]
+    # plotly takes a second to import: only who asks for a report waits for it
+    from push_bag.report.report import report_html  # noqa: PLC0415
+
+    scored = [_of(path, _run_and_score) for path in paths]
+    write_atomically(arguments.html, report_html(scored).encode())
+    return [score for _, score in scored]
+
+
+def _run_and_score(path: Path) -> tuple[RunSeries, dict[str, Any]]:
+    run = read_run(path)
+    return run, score_series(run)
+
+
+def _of(path: Path, work: Callable[[Path], T]) -> T:
+    """What some work makes of a bag; its error names the bag."""
+    try:
+        return work(path)
+    except InputError as error:
+        raise InputError(str(error) if str(path) in str(error) else f'{path}: {error}') from error
+
+
+def _text(arguments: argparse.Namespace, scores: Scores) -> str:
+    if arguments.compare:
+        return comparison_table(scores)
+    if len(scores) == 1:
+        score = scores[0][1]
+        return json_text(score) if arguments.json else score_table(score)
+    if arguments.json:
+        return json_text(runs_object(scores))
+    return runs_table(scores)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""The bag format: MCAP records, message types, CDR, QoS and metadata."""

@@ -1,0 +1,210 @@
+"""Writes one run to an MCAP bag that rosbag2, Foxglove and the like read."""
+
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any
+
+from mcap.writer import CompressionType, Writer
+from push_core.common.errors import InputError, RunError
+
+from push_bag.file.message_types import Definition, installed_definition
+from push_bag.file.rosbag2_metadata import Span, write_metadata
+from push_bag.file.topic import Topic
+from push_bag.file.topic_registry import TopicRegistry
+
+CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
+FACTS_RECORD = 'run'
+COUNTS_RECORD = 'recording'  # what the recorder received and lost, written last
+LARGEST_SEQUENCE = 0xFFFFFFFF
+
+
+class BagWriter:
+    """A run folder with one MCAP file, open for writing.
+
+    Facts and attachments come first in the file, so that a run that was cut short still says how
+    it was made. A write error (a full disk) ends the recording; what was written stays readable.
+    Use it as a context manager or call `close`.
+
+    Attributes:
+        path: the MCAP file.
+        counts: messages written per topic.
+    """
+
+    def __init__(
+        self, folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
+    ) -> None:
+        """Creates the folder and the file.
+
+        Args:
+            folder: of the run; must not exist yet.
+            facts: of the run (profile, seed, mode, versions …).
+            attachments: whole files to keep, by name.
+
+        Raises:
+            InputError: the folder exists already or cannot be made.
+            RunError: the file cannot be written.
+        """
+        self.folder = _new_folder(folder)
+        self.path = self.folder / f'{self.folder.name}_0.mcap'
+        self.counts: dict[str, int] = {}
+        self._facts = dict(facts)
+        self._first_ns: int | None = None
+        self._last_ns = 0
+        self._stream: IO[bytes] | None = _new_file(self.path)
+        self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
+        self._registry = TopicRegistry(self._writer)
+        self._attempt(lambda: self._write_head(attachments))
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it takes messages: not closed, and no write has failed."""
+        return self._stream is not None
+
+    def add_topic(
+        self, name: str, type_name: str, qos_yaml: str, definition: Definition | None = None
+    ) -> None:
+        """Declares a topic before its first message.
+
+        Args:
+            name: full name, with the leading slash.
+            type_name: in three parts, `geometry_msgs/msg/PoseStamped`.
+            qos_yaml: the offered profiles as rosbag2's YAML list, see `qos_text`.
+            definition: of the type; None for the installed one.
+
+        Raises:
+            InputError: the type is not installed, or the topic is already there.
+            RunError: the file cannot be written.
+        """
+        if name in self.counts:
+            raise InputError(f'topic {name} is already in {self.path}')
+        definition = definition or installed_definition(type_name)
+        topic = Topic(name, type_name, qos_yaml, definition.type_hash, definition.schema)
+        self._attempt(lambda: self._registry.add(topic))
+        self.counts[name] = 0
+
+    def write(
+        self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
+    ) -> None:
+        """Appends one serialized message.
+
+        Args:
+            name: topic, already added.
+            data: CDR with its 4-byte header.
+            log_ns: when it was received [ns].
+            publish_ns: when it was published [ns].
+            sequence: the publisher's number of it, from 1; 0 where unknown.
+
+        Raises:
+            RunError: the file cannot be written; the recording has ended.
+        """
+        channel = self._registry.channel(name)
+        number = sequence & LARGEST_SEQUENCE
+        self._attempt(lambda: self._writer.add_message(channel, log_ns, data, publish_ns, number))
+        self.counts[name] += 1
+        self._first_ns = log_ns if self._first_ns is None else min(log_ns, self._first_ns)
+        self._last_ns = max(log_ns, self._last_ns)
+
+    def note(self, name: str, facts: Mapping[str, str]) -> None:
+        """Writes down some facts where the file is now.
+
+        Raises:
+            RunError: the file cannot be written; the recording has ended.
+        """
+        self._attempt(lambda: self._writer.add_metadata(name, dict(facts)))
+
+    def flush(self) -> None:
+        """Hands everything written so far to the operating system, as a whole chunk.
+
+        Raises:
+            RunError: the file cannot be written; the recording has ended.
+        """
+        self._attempt(self._writer.flush)
+
+    def close(self) -> None:
+        """Finishes the file, then writes `metadata.yaml`; a second call does nothing.
+
+        Raises:
+            RunError: the file cannot be written.
+        """
+        if self._stream is not None:
+            self._attempt(self._finish)
+
+    def __enter__(self) -> 'BagWriter':
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def _attempt(self, work: Callable[[], object]) -> None:
+        if self._stream is None:
+            raise RunError(f'{self.path} is closed')
+        try:
+            work()
+        except OSError as error:
+            self._abandon()
+            reason = error.strerror or str(error)
+            raise RunError(
+                f'{self.path}: {reason}; recording stopped, what was recorded stays readable'
+            ) from error
+
+    def _write_head(self, attachments: Mapping[str, bytes]) -> None:
+        self._writer.start(profile='ros2', library='push_bag')
+        self._writer.add_metadata(FACTS_RECORD, self._facts)
+        now = time.time_ns()
+        for name, data in attachments.items():
+            self._writer.add_attachment(now, now, name, 'application/octet-stream', data)
+        self._writer.flush()  # type: ignore[no-untyped-call]
+
+    def _finish(self) -> None:
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._close_stream()
+        span = Span(self._first_ns or 0, self._last_ns)
+        try:
+            write_metadata(
+                self.folder,
+                self.path.name,
+                self._registry.summaries(self.counts),
+                span,
+                self._facts,
+            )
+        except InputError as error:
+            raise RunError(str(error)) from error
+
+    def _close_stream(self) -> None:
+        stream: Any = self._stream
+        self._stream = None
+        if stream is not None:
+            stream.close()
+
+    def _abandon(self) -> None:
+        try:
+            self._close_stream()
+        except OSError:
+            # closing flushes once more; the disk that refused the data refuses this too
+            return
+
+
+def _new_folder(folder: Path) -> Path:
+    folder = folder.absolute()
+    try:
+        folder.mkdir(parents=True)
+    except FileExistsError:
+        raise InputError(f'{folder} exists already; name a new folder') from None
+    except OSError as error:
+        raise InputError(f'{folder} cannot be made: {error.strerror}') from None
+    return folder
+
+
+def _new_file(path: Path) -> IO[bytes]:
+    try:
+        return path.open('wb')
+    except OSError as error:
+        path.parent.rmdir()
+        raise InputError(f'{path} cannot be made: {error.strerror}') from None

@@ -1,0 +1,101 @@
+"""rosbag2's `metadata.yaml`: what lies in a bag; its presence marks a clean finish."""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from push_core.common.atomic_file import write_atomically
+
+from push_bag.file.yaml_text import from_yaml, to_yaml
+
+VERSION = 9
+FILE_NAME = 'metadata.yaml'
+
+
+@dataclass(frozen=True)
+class TopicSummary:
+    """What is told of one topic.
+
+    Attributes:
+        name: full name.
+        type_name: in three parts.
+        qos: rosbag2's YAML list of profiles.
+        type_hash: `RIHS01_…`.
+        count: messages in the bag.
+    """
+
+    name: str
+    type_name: str
+    qos: str
+    type_hash: str
+    count: int
+
+
+@dataclass(frozen=True)
+class Span:
+    """First and last log time of a bag [ns]; both 0 where it is empty."""
+
+    start_ns: int
+    end_ns: int
+
+
+def write_metadata(
+    folder: Path,
+    bag_name: str,
+    topics: Sequence[TopicSummary],
+    span: Span,
+    facts: Mapping[str, str],
+) -> None:
+    """Writes `metadata.yaml` beside the bag, so that it is either whole or not there.
+
+    Args:
+        folder: the run's folder.
+        bag_name: name of the MCAP file in it.
+        topics: every topic of the bag.
+        span: of the log times.
+        facts: of the run; they become rosbag2's custom data.
+
+    Raises:
+        InputError: the file cannot be written.
+    """
+    information = _information(bag_name, topics, span) | {'custom_data': dict(facts) or None}
+    text = to_yaml({'rosbag2_bagfile_information': information})
+    write_atomically(folder / FILE_NAME, text.encode())
+
+
+def _information(bag_name: str, topics: Sequence[TopicSummary], span: Span) -> dict[str, Any]:
+    count = sum(topic.count for topic in topics)
+    return {
+        'version': VERSION,
+        'storage_identifier': 'mcap',
+        **_contents(count, span),
+        'topics_with_message_count': [_topic(topic) for topic in topics],
+        'compression_format': '',
+        'compression_mode': '',
+        'relative_file_paths': [bag_name],
+        'files': [{'path': bag_name, **_contents(count, span)}],
+        'ros_distro': os.environ.get('ROS_DISTRO', 'jazzy'),
+    }
+
+
+def _contents(count: int, span: Span) -> dict[str, Any]:
+    return {
+        'starting_time': {'nanoseconds_since_epoch': span.start_ns},
+        'duration': {'nanoseconds': span.end_ns - span.start_ns},
+        'message_count': count,
+    }
+
+
+def _topic(topic: TopicSummary) -> dict[str, Any]:
+    return {
+        'topic_metadata': {
+            'name': topic.name,
+            'type': topic.type_name,
+            'serialization_format': 'cdr',
+            'offered_qos_profiles': from_yaml(topic.qos) or [],
+            'type_description_hash': topic.type_hash,
+        },
+        'message_count': topic.count,
+    }

@@ -1,0 +1,32 @@
+"""A bag that is made of something that stays there: it becomes whole, or it is not left behind."""
+
+import shutil
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from push_core.common.errors import RunError
+
+from push_bag.file.bag_writer import BagWriter
+
+
+@contextmanager
+def whole_bag(
+    folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
+) -> Iterator[BagWriter]:
+    """A writer whose folder goes away again when anything goes wrong; see `BagWriter`.
+
+    Raises:
+        InputError: the folder exists already or cannot be made.
+        RunError: the bag cannot be written.
+    """
+    was_there = folder.exists()
+    try:
+        with BagWriter(folder, facts, attachments) as writer:
+            yield writer
+    except BaseException as error:
+        if not was_there:
+            shutil.rmtree(folder, ignore_errors=True)
+        if isinstance(error, RunError) and isinstance(error.__cause__, OSError):
+            raise RunError(f'cannot write {folder}: {error.__cause__.strerror}') from error
+        raise

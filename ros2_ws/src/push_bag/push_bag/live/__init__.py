@@ -1,0 +1,1 @@
+"""Messages of a running cell for viewers in a browser."""

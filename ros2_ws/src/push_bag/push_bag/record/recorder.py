@@ -1,0 +1,147 @@
+"""The recorder node: every topic of the cell, raw, into one bag."""
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from push_core.common.errors import InputError, RunError
+from push_node.cell_topics import CELL_TOPICS
+from push_node.diagnostics import Reporter
+from push_node.parameters import declared
+from push_node.spin import request_stop, run_node
+from push_node.topic_names import full_name
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+from push_bag.file.bag_writer import BagWriter
+from push_bag.file.traffic import lost_text
+from push_bag.record.recorder_settings import (
+    RecorderSettings,
+    read_attachments,
+    read_facts,
+    split_list,
+)
+from push_bag.record.recording import Recording
+
+DISCOVERY_PERIOD = 0.1  # [s] while topics of the cell are missing
+LATER_DISCOVERY_PERIOD = 1.0  # [s] for what comes while running
+REPORT_PERIOD = 1.0  # [s]
+
+
+class Recorder(Node):  # type: ignore[misc]
+    """Records every topic of a cell, raw, into a new folder, until it is stopped.
+
+      ros2 run push_bag recorder --ros-args -p folder:=runs/NEW
+      ros2 run push_bag recorder --ros-args -p folder:=runs/NEW -p topics:="/arm/*,/joint_states"
+
+    folder        new folder of the run; must not exist yet
+    topics        names or patterns to record beside those of the cell, separated by commas
+    attachments   files to keep in the bag, one a line
+    facts_file    JSON object with the facts of the run
+    """
+
+    def __init__(self) -> None:
+        super().__init__('recorder')
+        settings = declared(self, RecorderSettings())
+        offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
+        others = {full_name(self, name) for name in split_list(settings.topics)}
+        self._core = {self.resolve_topic_name(topic.name) for topic in CELL_TOPICS if topic.core}
+        self._writer = open_bag(settings)
+        self._recording = Recording(self._writer, {*offers, *others}, offers)
+        self._reporter = Reporter(self, 'recording')
+        self._was_complete = False
+        self._failure: RunError | None = None
+        self._start_timers(settings)
+
+    def destroy_node(self) -> None:
+        """Takes what still waits, finishes the bag and says what was lost.
+
+        Raises:
+            RunError: the bag could not be written.
+        """
+        try:
+            self._recording.close()
+        finally:
+            lost = lost_text(self._recording.traffic)
+            sys.stderr.write(f'recorder: {lost}; {self._writer.path}\n')
+            super().destroy_node()
+        if self._failure is not None:
+            raise self._failure
+
+    def _start_timers(self, settings: RecorderSettings) -> None:
+        # the recorder goes on while simulated time stands still
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        drain = self._guarded(self._recording.drain)
+        flush = self._guarded(self._recording.flush)
+        self.create_timer(settings.poll_period, drain, clock=steady)
+        self.create_timer(settings.flush_period, flush, clock=steady)
+        self._discovery = self.create_timer(
+            DISCOVERY_PERIOD, self._guarded(self._discover), clock=steady
+        )
+        self.create_timer(REPORT_PERIOD, self._report, clock=steady)
+
+    def _guarded(self, work: Callable[[], None]) -> Callable[[], None]:
+        """The same work; its error is told to the cell and ends the node."""
+
+        def guarded() -> None:
+            if self._failure is not None:
+                return
+            try:
+                work()
+            except RunError as error:
+                self._failure = error
+                self._report()
+                request_stop()
+
+        return guarded
+
+    def _discover(self) -> None:
+        refused = set(self._recording.refused)
+        self._recording.discover()
+        for topic in self._recording.refused.keys() - refused:
+            self.get_logger().warning(f'{topic}: {self._recording.refused[topic]}')
+        if not self._was_complete and not self._missing():
+            self._was_complete = True
+            self._discovery.timer_period_ns = round(LATER_DISCOVERY_PERIOD * 1e9)
+            self._report()
+
+    def _report(self) -> None:
+        if self._failure is not None:
+            self._reporter.report(False, str(self._failure), self._counts())
+            return
+        missing = self._missing()
+        message = f'waiting for {", ".join(sorted(missing))}' if missing else 'recording'
+        self._reporter.report(not missing, message, self._counts())
+
+    def _missing(self) -> set[str]:
+        return self._core - self._recording.traffic.keys()
+
+    def _counts(self) -> dict[str, str]:
+        return {
+            topic: f'{seen.received} received, {seen.lost} lost, '
+            f'{seen.middleware_lost or 0} told of by the middleware'
+            for topic, seen in self._recording.traffic.items()
+        }
+
+
+def open_bag(settings: RecorderSettings) -> BagWriter:
+    """The bag that the settings ask for, with facts and attachments in it.
+
+    Raises:
+        InputError: no folder was named, it exists, or a file to include cannot be read.
+        RunError: the bag cannot be written.
+    """
+    if not settings.folder:
+        raise InputError('name the new folder of the run with -p folder:=PATH')
+    facts = read_facts(settings.facts_file)
+    attachments = read_attachments(settings.attachments.splitlines())
+    return BagWriter(Path(settings.folder), facts, attachments)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the recorder until SIGINT or SIGTERM."""
+    return run_node(Recorder, argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

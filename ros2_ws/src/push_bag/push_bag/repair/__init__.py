@@ -1,0 +1,1 @@
+"""Recovery of what is whole in a broken bag."""

@@ -1,0 +1,169 @@
+"""`push_bag recover BROKEN -o OUT`: a sound bag of all that is whole in a broken one."""
+
+import argparse
+import contextlib
+import mmap
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from mcap.opcode import Opcode
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError
+
+from push_bag.file.bag_contents import BagContents
+from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
+from push_bag.file.mcap_stream import DamagedError, RawMessage, RawRecord, chunk_records, message
+from push_bag.file.message_types import Definition, installed_definition
+from push_bag.file.qos_text import qos_profile
+from push_bag.file.reader import bag_file
+from push_bag.file.topic import Topic
+from push_bag.file.whole_bag import whole_bag
+from push_bag.repair.recovered import Recovered
+from push_bag.repair.salvage import Damage, WholeChunk, whole_parts
+
+RECOVERY_RECORD = 'recovery'  # what was saved and what is missing, written last
+EPILOG = """
+OUT becomes a run folder with one finished bag: every whole chunk of BROKEN, facts and attachments.
+What is missing is said: messages by their numbers, seconds by their times.
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Recovers a bag."""
+    return run_command(_parser(), _work, argv)
+
+
+def recover(broken: Path, folder: Path) -> Recovered:
+    """Writes a new bag of all that is whole in a broken one.
+
+    Args:
+        broken: run folder or MCAP file.
+        folder: of the new run; must not exist yet.
+
+    Returns:
+        What there was and what is missing.
+
+    Raises:
+        InputError: there is no bag, nothing whole in it, or the folder exists already.
+        RunError: the new bag cannot be written.
+    """
+    path = bag_file(broken)
+    with _mapped(path) as file:
+        contents = _contents(file)
+        if not contents.topics:
+            raise InputError(f'{path} holds nothing that could be recovered')
+        facts = {**contents.facts, 'recovered_from': path.name, 'recovered_bag': _state(contents)}
+        with whole_bag(folder, facts, contents.attachments) as writer:
+            found = _copied(file, contents, writer)
+            if contents.counts:
+                writer.note(COUNTS_RECORD, contents.counts)
+            writer.note(RECOVERY_RECORD, found.facts())
+            return found
+
+
+def _state(contents: BagContents) -> str:
+    return 'came to its end' if contents.finished else 'was cut short'
+
+
+def _contents(file: mmap.mmap) -> BagContents:
+    """What all whole parts say of the bag, the more trustworthy ones first.
+
+    Chunks and the copies of the topics have checksums; what else is said of topics has none.
+    """
+    contents, unverified = BagContents(), []
+    for part in whole_parts(file):
+        if isinstance(part, RawRecord) and part.opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
+            unverified.append(part)
+        else:
+            _note(contents, part)
+    for number, spare in contents.spare_topics.items():
+        if number not in contents.topics:
+            contents.topics[number] = _defined(spare)
+    for part in unverified:
+        _note(contents, part)
+    return contents
+
+
+def _note(contents: BagContents, part: WholeChunk | RawRecord | Damage) -> None:
+    for record in _records(part):
+        if isinstance(record, RawRecord):
+            with contextlib.suppress(DamagedError):
+                contents.note(record)
+
+
+def _defined(spare: Topic) -> Topic:
+    """A topic whose definition is lost with its first chunk, with the installed one.
+
+    Raises:
+        InputError: the type is not installed.
+    """
+    return replace(spare, schema=installed_definition(spare.type_name).schema)
+
+
+def _copied(file: mmap.mmap, contents: BagContents, writer: BagWriter) -> Recovered:
+    """Copies all messages of known topics."""
+    found = Recovered(contents)
+    for each in contents.topics.values():
+        _add(writer, each)
+    for part in whole_parts(file):
+        if isinstance(part, Damage):
+            found.skipped(part.length)
+        for raw in _records(part):
+            topic = contents.topics.get(raw.channel) if isinstance(raw, RawMessage) else None
+            if isinstance(raw, RawMessage) and topic is not None:
+                writer.write(topic.name, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
+                found.saw(topic.name, raw)
+    return found
+
+
+def _records(part: WholeChunk | RawRecord | Damage) -> Iterator[RawMessage | RawRecord]:
+    """The records in one part of the file."""
+    with contextlib.suppress(DamagedError):
+        if isinstance(part, WholeChunk):
+            yield from chunk_records(part.data)
+        elif isinstance(part, RawRecord):
+            yield message(part.body) if part.opcode == Opcode.MESSAGE else part
+
+
+def _add(writer: BagWriter, topic: Topic) -> None:
+    if topic.name not in writer.counts:
+        definition = Definition(topic.schema, topic.type_hash)
+        writer.add_topic(topic.name, topic.type_name, _readable(topic.qos), definition)
+
+
+def _readable(qos: str) -> str:
+    """The profiles as they are, none where their text is damaged."""
+    try:
+        qos_profile(qos)
+    except InputError:
+        return ''
+    return qos
+
+
+@contextlib.contextmanager
+def _mapped(path: Path) -> Iterator[mmap.mmap]:
+    with path.open('rb') as stream:
+        if not path.stat().st_size:
+            raise InputError(f'{path} is empty')
+        with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as file:
+            yield file
+
+
+def _parser() -> Parser:
+    parser = Parser('Makes a sound bag of all that is whole in a broken one.', EPILOG)
+    parser.add_argument('broken', type=Path, metavar='BROKEN', help='run folder or MCAP file')
+    parser.add_argument(
+        '-o', '--output', type=Path, required=True, metavar='OUT', help='new run folder'
+    )
+    return parser
+
+
+def _work(arguments: argparse.Namespace) -> None:
+    found = recover(arguments.broken, arguments.output)
+    sys.stdout.write(found.text() + f'\n{arguments.output}\n')
+
+
+if __name__ == '__main__':
+    sys.exit(main())

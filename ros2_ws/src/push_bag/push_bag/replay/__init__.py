@@ -1,0 +1,1 @@
+"""Publishing a bag again, and computing its commands again."""

@@ -1,0 +1,109 @@
+"""A recorded run put to a running controller, tick by tick: does it send the same commands?"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_msgs.msg import ControllerState
+from push_node.cell_topics import short_name
+from rclpy.node import Node
+from tqdm import tqdm
+
+from push_bag.replay.questioner import Question, Questioner
+from push_bag.replay.recompute import Recomputed
+from push_bag.run.conversions import nanoseconds
+from push_bag.run.recorded_ticks import ByStamp, RecordedRun, RecordedTick
+from push_bag.run.series import Floats
+
+POSES = ('object_pose', 'pusher_pose')
+
+
+def interviewed(path: Path, node: Node) -> Recomputed:
+    """The commands of a run beside those of a controller that is asked over DDS.
+
+    Args:
+        path: run folder or MCAP file.
+        node: that asks.
+
+    Raises:
+        InputError: there is no readable bag, or no tick or no pose in it.
+        RunError: no controller answers.
+    """
+    run = RecordedRun(path)
+    return Interview(run, node).result()
+
+
+class Interview:
+    """Asks for each tick of a run."""
+
+    def __init__(self, run: RecordedRun, node: Node) -> None:
+        """Reads the poses.
+
+        Raises:
+            InputError: there are none.
+        """
+        self._run = run
+        self._messages: dict[str, list[Any]] = {name: [] for name in POSES}
+        published: dict[str, list[int]] = {name: [] for name in POSES}
+        topic = ''
+        for record in run.reader.records():
+            name = short_name(record.topic.name)
+            if name in self._messages:
+                topic = record.topic.name
+                self._messages[name].append(record.message())
+                published[name].append(record.publish_ns)
+        if not topic:
+            raise InputError(f'{run.reader.path} holds no poses')
+        self._places = {
+            name: ByStamp([nanoseconds(message) for message in messages], published[name])
+            for name, messages in self._messages.items()
+        }
+        self._questioner = Questioner(node, topic[: -len(short_name(topic))])
+        self._mode = ControllerState.IDLE
+
+    def result(self) -> Recomputed:
+        """Asks from the first tick to the last."""
+        found: list[tuple[int, Floats, Floats]] = []
+        skipped = 0
+        ticks = tqdm(self._run.ticks(), total=len(self._run), unit='tick', disable=None)
+        for tick in ticks:
+            answer = self._answer(tick)
+            if tick.velocity is None or tick.mode == ControllerState.IDLE:
+                continue
+            if answer is None:
+                skipped += 1
+            else:
+                found.append((tick.stamp, tick.velocity, answer))
+        return Recomputed(
+            np.array([stamp for stamp, _, _ in found], np.int64),
+            np.array([recorded for _, recorded, _ in found], np.float64).reshape(-1, 2),
+            np.array([answer for _, _, answer in found], np.float64).reshape(-1, 2),
+            skipped,
+        )
+
+    def _answer(self, tick: RecordedTick) -> Floats | None:
+        """What the controller sends at a tick; None where it cannot be asked."""
+        question = self._question(tick)
+        before, self._mode = self._mode, tick.mode
+        if tick.mode == ControllerState.STOPPED and question is None:
+            self._questioner.stop()
+            return np.zeros(2)
+        if tick.mode == ControllerState.IDLE or question is None:
+            return None
+        if tick.mode == ControllerState.ARMED and before != ControllerState.ARMED:
+            self._questioner.begin(question)
+        return self._questioner.answer(question)
+
+    def _question(self, tick: RecordedTick) -> Question | None:
+        """What the controller knew; None where it answered no pose, or one that is lost."""
+        object_pose, tip = (self._message(name, tick) for name in POSES)
+        if math.isnan(tick.exposure) or object_pose is None or tip is None:
+            return None
+        now = tick.stamp + round((tick.now - tick.exposure) * 1e9)
+        return Question(tick.stamp, now, object_pose, tip)
+
+    def _message(self, name: str, tick: RecordedTick) -> Any:
+        row = self._places[name].row(tick.stamp, tick.published)
+        return None if row is None else self._messages[name][row]

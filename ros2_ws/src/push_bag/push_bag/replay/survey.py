@@ -1,0 +1,69 @@
+"""One look through a bag: which topics it has, and from when to when."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from push_core.common.errors import InputError
+from push_node.cell_topics import short_name
+
+from push_bag.file.reader import BagReader
+from push_bag.file.topic import Topic
+
+
+@dataclass(frozen=True)
+class Survey:
+    """What a look found.
+
+    Attributes:
+        topics: that have messages, by full name.
+        first_ns: earliest log time of any message in the bag [ns].
+        last_ns: latest one of these topics.
+    """
+
+    topics: Mapping[str, Topic]
+    first_ns: int
+    last_ns: int
+
+    @property
+    def seconds(self) -> float:
+        """Time [s] from the beginning of the bag to the last message of these topics."""
+        return (self.last_ns - self.first_ns) * 1e-9
+
+
+def survey(path: Path, names: Sequence[str] | None) -> Survey:
+    """Looks through a bag.
+
+    Args:
+        path: run folder or MCAP file.
+        names: of the topics wanted, whole or their last part; None for all.
+
+    Raises:
+        InputError: there is no readable bag, nothing in it, or no topic of such a name.
+    """
+    reader = BagReader(path)
+    spans: dict[str, tuple[int, int]] = {}
+    for record in reader.records():
+        first, last = spans.get(record.topic.name, (record.log_ns, record.log_ns))
+        spans[record.topic.name] = min(first, record.log_ns), max(last, record.log_ns)
+    topics = _wanted({name: reader.topics[name] for name in spans}, names)
+    seen = [spans[name] for name in topics]
+    if not seen:
+        raise InputError(
+            f'{reader.path} holds no messages' + (' of these topics' if names else '')
+        )
+    begin = min(first for first, _ in spans.values())
+    return Survey(topics, begin, max(last for _, last in seen))
+
+
+def _wanted(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[str, Topic]:
+    if names is None:
+        return dict(topics)
+    wanted: dict[str, Topic] = {}
+    for name in names:
+        found = [full for full in topics if name in (full, full[1:], short_name(full))]
+        if not found:
+            known = ', '.join(sorted(topics))
+            raise InputError(f'the bag has no message of a topic {name}; it has those of {known}')
+        wanted |= {full: topics[full] for full in found}
+    return wanted

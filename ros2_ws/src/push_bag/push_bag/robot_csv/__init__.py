@@ -1,0 +1,1 @@
+"""Measured runs of the real cell as bags."""

@@ -1,0 +1,105 @@
+"""The messages that a cell would have published in a measured run."""
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.geometry.quaternion import yaw_to_quaternion
+from push_core.physics.slider import Slider
+from push_msgs.msg import ControllerState, NominalTrajectory
+from push_node.cell_topics import CELL_TOPICS
+from push_node.stamps import to_stamp
+from rclpy.serialization import serialize_message
+
+from push_bag.file.qos_text import qos_text
+from push_bag.robot_csv.robot_run import RobotRun
+from push_bag.run.series import Floats
+
+START_NS = 1_000_000_000  # stamp of the first row
+WRITTEN = (
+    *('object_pose', 'pusher_pose', 'pusher_velocity_cmd'),
+    *('nominal_trajectory', 'controller_state'),
+)
+UNKNOWN = math.nan
+
+
+def topics() -> list[tuple[str, str, str]]:
+    """Name, type and QoS of the topics, for `BagWriter.add_topic`."""
+    return [
+        (f'/{topic.name}', topic.type_name, qos_text(topic.qos))
+        for topic in CELL_TOPICS
+        if topic.name in WRITTEN
+    ]
+
+
+def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
+    """Topic, bytes and stamp [ns] of every message, in order of time."""
+    yield '/nominal_trajectory', serialize_message(_reference(run, slider)), START_NS
+    velocity, progress = run.velocity, run.progress
+    for row, time in enumerate(run.time.tolist()):
+        stamp = START_NS + round(time * 1e9)
+        last = row == len(run.time) - 1
+        for name, message in (
+            ('/object_pose', _posed(run.pose[row])),
+            ('/pusher_pose', _posed(np.array([*run.tip[row], 0.0]))),
+            ('/pusher_velocity_cmd', _moving(velocity[row])),
+            ('/controller_state', _state(run, slider, row, progress[row], last)),
+        ):
+            message.header.frame_id, message.header.stamp = 'world', to_stamp(stamp)
+            yield name, serialize_message(message), stamp
+
+
+def _posed(pose: Floats) -> Any:
+    message = PoseStamped()
+    message.pose.position.x, message.pose.position.y = pose[:2].tolist()
+    _, _, message.pose.orientation.z, message.pose.orientation.w = yaw_to_quaternion(pose[2])
+    return message
+
+
+def _moving(velocity: Floats) -> Any:
+    message = TwistStamped()
+    message.twist.linear.x, message.twist.linear.y = velocity.tolist()
+    return message
+
+
+def _state(run: RobotRun, slider: Slider, row: int, progress: float, last: bool) -> Any:
+    pose, tip = run.pose[row], run.tip[row]
+    state = np.array([*pose, slider.contact_offset(pose, tip)])
+    message = ControllerState(
+        tick=row,
+        mode=ControllerState.DONE if last else ControllerState.TRACKING,
+        reference_time=float(run.time[row]),
+        exposure=float(run.time[row]),
+        now=UNKNOWN,
+        state=state,
+        predicted=state,
+        reference=np.array([progress, 0.0, 0.0, 0.0]),
+        gap=float(slider.gap(pose, tip)),
+        solve_ms=UNKNOWN,
+        tick_ms=UNKNOWN,
+    )
+    message.input = message.nominal_input = np.array([UNKNOWN, UNKNOWN])
+    return message
+
+
+def _reference(run: RobotRun, slider: Slider) -> Any:
+    """The line along x, timed by the object's own progress."""
+    count = len(run.time)
+    time = np.linspace(0.0, run.time[-1], count)
+    x = np.interp(time, run.time, run.progress)
+    zero = np.zeros(count)
+    message = NominalTrajectory(
+        track=run.name,
+        controller='robot',
+        speed=float((x[-1] - x[0]) / time[-1]),
+        side=slider.side,
+        tip_radius=slider.tip_radius,
+        laps=1,
+    )
+    message.header.frame_id, message.header.stamp = 'world', to_stamp(START_NS)
+    message.time, message.x, message.y = time.tolist(), x.tolist(), zero.tolist()
+    message.theta = message.p_y = message.v_t = zero.tolist()
+    message.v_n = np.gradient(x, time).tolist()
+    return message

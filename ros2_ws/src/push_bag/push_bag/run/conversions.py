@@ -1,0 +1,108 @@
+"""Messages to arrays: the only place that knows the fields of the recorded messages.
+
+Topics that come at each tick are decoded by columns (`cdr_columns`), rare ones as messages.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from push_core.common.errors import InputError
+from push_core.geometry.quaternion import quaternion_to_yaw
+from push_node.stamps import NANOSECONDS, to_nanoseconds
+
+from push_bag.file.cdr_columns import Columns
+from push_bag.run.series import Disturbance, Floats, Model, Reference
+
+STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
+# fields of each topic that is read by columns
+POSE_FIELDS = (
+    *STAMP,
+    'pose.position.x',
+    'pose.position.y',
+    'pose.orientation.z',
+    'pose.orientation.w',
+)
+TWIST_FIELDS = (*STAMP, 'twist.linear.x', 'twist.linear.y')
+SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited')
+STATE_FIELDS = (
+    *STAMP,
+    'mode',
+    'stop_reason',
+    'reference_time',
+    'state',
+    'input',
+    'nominal_input',
+    *SOLVER_FIELDS,
+)
+
+
+def stamps(columns: Columns) -> NDArray[np.int64]:
+    """Stamps (n,) of the messages' headers [ns]."""
+    sec, nanosec = (columns[name].astype(np.int64) for name in STAMP)
+    return np.asarray(sec * NANOSECONDS + nanosec)
+
+
+def planar_poses(columns: Columns) -> Floats:
+    """X [m], y [m] and heading [rad] (n, 3) of poses that are turned about z only."""
+    turns = zip(columns['pose.orientation.z'], columns['pose.orientation.w'], strict=True)
+    yaw = [quaternion_to_yaw(z, w) for z, w in turns]
+    return np.column_stack([columns['pose.position.x'], columns['pose.position.y'], yaw])
+
+
+def positions(columns: Columns) -> Floats:
+    """X and y [m] (n, 2) of poses."""
+    return np.column_stack([columns['pose.position.x'], columns['pose.position.y']])
+
+
+def velocities(columns: Columns) -> Floats:
+    """v_x and v_y [m/s] (n, 2) of twists."""
+    return np.column_stack([columns['twist.linear.x'], columns['twist.linear.y']])
+
+
+def ticks(columns: Columns) -> Floats:
+    """The STATE_COLUMNS (n, 12) of controller states."""
+    parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
+    parts += [columns['input'], columns['nominal_input']]
+    parts += [columns[name] for name in SOLVER_FIELDS]
+    return np.column_stack(parts).astype(np.float64)
+
+
+def nanoseconds(message: Any) -> int:
+    """The stamp of a message's header [ns]."""
+    return to_nanoseconds(message.header.stamp)
+
+
+def reference(message: Any) -> Reference:
+    """The reference of a NominalTrajectory.
+
+    Raises:
+        InputError: its arrays are empty or of different lengths.
+    """
+    arrays = [message.time, message.x, message.y, message.theta, message.p_y]
+    arrays += [message.v_n, message.v_t]
+    if len(message.time) < 2 or len({len(array) for array in arrays}) != 1:
+        raise InputError('the recorded nominal trajectory is not a series of samples')
+    time, x, y, theta, p_y, v_n, v_t = (np.asarray(array, np.float64) for array in arrays)
+    return Reference(
+        track=message.track,
+        controller=message.controller,
+        speed=message.speed,
+        side=message.side,
+        tip_radius=message.tip_radius,
+        laps=message.laps,
+        time=time,
+        pose=np.stack([x, y, theta], axis=1),
+        p_y=p_y,
+        input=np.stack([v_n, v_t], axis=1),
+    )
+
+
+def model(message: Any) -> Model:
+    """The model of a ModelInfo."""
+    return Model(message.points, message.model_hash, message.kind)
+
+
+def disturbance(message: Any) -> Disturbance:
+    """The disturbance of a Perturbation."""
+    return Disturbance(nanoseconds(message), message.kind, message.magnitude)

@@ -1,0 +1,142 @@
+"""The ticks of a recorded controller: what it knew at each of them, and what it sent."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array
+from push_node.cell_topics import short_name
+
+from push_bag.file.cdr_columns import Columns
+from push_bag.file.reader import BagReader
+from push_bag.run.conversions import (
+    POSE_FIELDS,
+    STAMP,
+    TWIST_FIELDS,
+    planar_poses,
+    positions,
+    velocities,
+)
+from push_bag.run.topic_table import TopicTable
+
+TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
+
+
+@dataclass(frozen=True)
+class RecordedTick:
+    """One tick.
+
+    Attributes:
+        stamp: of its command [ns].
+        published: when it was told of [ns].
+        mode: of the controller afterwards.
+        exposure: of the poses [s]; NaN where it answered none.
+        now: when it was computed [s].
+        model_id: of the model in use.
+        stop_reason: why it stopped; empty if it did not.
+        object_pose: (3,) as measured; None where it answered none, or the bag lacks it.
+        tip: (2,) as measured; None likewise.
+        velocity: (2,) as sent; None where nothing was.
+    """
+
+    stamp: int
+    published: int
+    mode: int
+    exposure: float
+    now: float
+    model_id: str
+    stop_reason: str
+    object_pose: Array | None
+    tip: Array | None
+    velocity: Array | None
+
+
+class RecordedRun:
+    """A bag read as ticks.
+
+    Attributes:
+        reader: of the bag; its facts and attachments are complete.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Reads the bag.
+
+        Raises:
+            InputError: there is no readable bag, or no tick of a controller in it.
+        """
+        self.reader = BagReader(path)
+        self._names: list[tuple[str, str]] = []
+        tables = {
+            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
+            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
+            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
+            'controller_state': TopicTable(TICK_FIELDS, 3, self._tick_values),
+        }
+        for record in self.reader.records():
+            table = tables.get(short_name(record.topic.name))
+            if table is not None:
+                table.add(record)
+        rows = {name: table.in_file_order() for name, table in tables.items()}
+        self._states = rows.pop('controller_state')
+        self._rows = rows
+        self._by_stamp = {
+            name: ByStamp(each.stamp.tolist(), each.published.tolist())
+            for name, each in rows.items()
+        }
+        if not self._states.stamp.size:
+            raise InputError(f'{path} holds no ticks of a controller')
+
+    def ticks(self) -> Iterator[RecordedTick]:
+        """All ticks in the order in which they were computed."""
+        for row in np.argsort(self._states.published, kind='stable').tolist():
+            yield self._tick(row)
+
+    def __len__(self) -> int:
+        return self._states.stamp.size
+
+    def _tick(self, row: int) -> RecordedTick:
+        stamp, told = int(self._states.stamp[row]), int(self._states.published[row])
+        mode, exposure, now = self._states.values[row].tolist()
+        found = {name: self._values(name, stamp, told) for name in self._rows}
+        model_id, stop_reason = self._names[row]
+        return RecordedTick(
+            stamp=stamp,
+            published=told,
+            mode=int(mode),
+            exposure=exposure,
+            now=now,
+            model_id=model_id,
+            stop_reason=stop_reason,
+            object_pose=found['object_pose'],
+            tip=found['pusher_pose'],
+            velocity=found['pusher_velocity_cmd'],
+        )
+
+    def _values(self, name: str, stamp: int, told: int) -> Array | None:
+        row = self._by_stamp[name].row(stamp, told)
+        return None if row is None else np.asarray(self._rows[name].values[row])
+
+    def _tick_values(self, columns: Columns) -> Array:
+        self._names += zip(columns['model_id'], columns['stop_reason'], strict=True)
+        return np.column_stack([columns['mode'], columns['exposure'], columns['now']])
+
+
+class ByStamp:
+    """Where the messages of a topic are, by stamp; a plant that starts anew uses stamps again."""
+
+    def __init__(self, stamps: Sequence[int], published: Sequence[int]) -> None:
+        """Takes stamps and publish times [ns] of all messages, in the order of the file."""
+        self._published = published
+        self._places: dict[int, list[int]] = {}
+        for row, stamp in enumerate(stamps):
+            self._places.setdefault(stamp, []).append(row)
+
+    def row(self, stamp: int, time: int) -> int | None:
+        """The last message with a stamp [ns] that was published by a time [ns]."""
+        rows = self._places.get(stamp)
+        if not rows:
+            return None
+        published = [row for row in rows if self._published[row] <= time]
+        return (published or rows[:1])[-1]

@@ -1,0 +1,134 @@
+"""Reads a bag into the time series that the score and the report work on."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from push_core.common.errors import InputError
+from push_node.cell_topics import short_name
+
+from push_bag.file.cdr_columns import Columns
+from push_bag.file.reader import BagReader, Record
+from push_bag.file.traffic import Traffic
+from push_bag.run.conversions import (
+    POSE_FIELDS,
+    STATE_FIELDS,
+    TWIST_FIELDS,
+    disturbance,
+    model,
+    planar_poses,
+    positions,
+    reference,
+    ticks,
+    velocities,
+)
+from push_bag.run.series import STATE_COLUMNS, Disturbance, Floats, Model, Reference, RunSeries
+from push_bag.run.topic_table import TopicTable
+
+
+def read_run(path: Path) -> RunSeries:
+    """Reads a bag from end to end, decoding only what the score needs.
+
+    Args:
+        path: run folder or MCAP file.
+
+    Raises:
+        InputError: there is no bag, or it is not readable.
+    """
+    reader = BagReader(path)
+    rows = _Rows()
+    for record in reader.records():
+        rows.add(record)
+    if not rows.traffic:
+        raise InputError(f'{reader.path} holds no messages')
+    return rows.series(reader)
+
+
+class _Rows:
+    """Collects the rows of each series while the bag streams by."""
+
+    def __init__(self) -> None:
+        self.traffic: dict[str, Traffic] = {}
+        self._tables = {
+            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
+            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
+            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
+            'controller_state': TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
+        }
+        self._topics: dict[str, tuple[Traffic, Callable[[Record], None] | None]] = {}
+        self._sources: dict[str, str] = {}
+        self._stop_reason = self._end_reason = ''
+        self._reference: Reference | None = None
+        self._model: Model | None = None
+        self._disturbances: list[Disturbance] = []
+        self._horizons: list[Record] = []
+        self._readers: Mapping[str, Callable[[Record], None]] = {
+            **{name: table.add for name, table in self._tables.items()},
+            'nominal_trajectory': self._set_reference,
+            'model_info': self._set_model,
+            'perturbation': self._add_disturbance,
+            'horizon': self._horizons.append,
+            'run_end': self._set_end_reason,
+        }
+
+    def add(self, record: Record) -> None:
+        """Counts a record and keeps what the series need of it."""
+        known = self._topics.get(record.topic.name)
+        if known is None:
+            known = self._topics[record.topic.name] = self._new_topic(record.topic.name)
+        seen, read = known
+        seen.saw(record.sequence, record.log_ns)
+        if read is not None:
+            read(record)
+
+    def series(self, reader: BagReader) -> RunSeries:
+        """All that was collected.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
+        for name, lost in reader.contents.middleware_lost.items():
+            self.traffic.setdefault(name, Traffic()).middleware_lost = lost
+        tables = {name: table.stamped() for name, table in self._tables.items()}
+        return RunSeries(
+            facts=reader.facts,
+            finished=reader.finished,
+            traffic={name: self.traffic.get(name, Traffic()) for name in reader.topics},
+            object=tables['object_pose'],
+            pusher=tables['pusher_pose'],
+            commands=tables['pusher_velocity_cmd'],
+            states=tables['controller_state'],
+            # the cell also knows of nodes that died, whose controller could not say so
+            stop_reason=self._end_reason or self._stop_reason,
+            reference=self._reference,
+            model=self._model,
+            disturbances=tuple(self._disturbances),
+            horizons=tuple(self._horizons),
+        )
+
+    def _new_topic(self, name: str) -> tuple[Traffic, Callable[[Record], None] | None]:
+        seen = self.traffic[name] = Traffic()
+        own = short_name(name)
+        other = self._sources.setdefault(own, name)
+        if own in self._readers and other != name:
+            raise InputError(
+                f'the bag holds two cells ({other}, {name}), of which one can be scored: record '
+                'each into a bag of its own'
+            )
+        return seen, self._readers.get(own)
+
+    def _states(self, columns: Columns) -> Floats:
+        reasons = [reason for reason in columns['stop_reason'] if reason]
+        self._stop_reason = reasons[-1] if reasons else self._stop_reason
+        return ticks(columns)
+
+    def _set_reference(self, record: Record) -> None:
+        self._reference = reference(record.message())
+
+    def _set_end_reason(self, record: Record) -> None:
+        self._end_reason = str(record.message().data)
+
+    def _set_model(self, record: Record) -> None:
+        self._model = model(record.message())
+
+    def _add_disturbance(self, record: Record) -> None:
+        self._disturbances.append(disturbance(record.message()))

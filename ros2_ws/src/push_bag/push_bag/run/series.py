@@ -1,0 +1,155 @@
+"""The time series of a run as arrays: what the score and the report work on.
+
+Stamps and publish times are int64 nanoseconds, so that a command is matched with its pose exactly;
+everything else is in SI units. Of messages that share a stamp (a simulator that waits publishes
+its pose again) the first one counts.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from push_msgs.msg import ControllerState
+
+from push_bag.file.reader import Record
+from push_bag.file.traffic import Traffic
+
+Floats = NDArray[np.float64]
+Nanoseconds = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Stamped:
+    """Values of one topic, ordered by stamp.
+
+    Attributes:
+        stamp: (n,) of the messages' headers [ns], strictly increasing.
+        published: (n,) publish times [ns].
+        values: (n, k) as the field that holds the series says.
+    """
+
+    stamp: Nanoseconds
+    published: Nanoseconds
+    values: Floats
+
+    def at(self, stamps: Nanoseconds) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """Where each of the stamps is: indices (m,), and (m,) whether it is there at all."""
+        if not self.stamp.size:
+            return np.zeros(stamps.size, np.intp), np.zeros(stamps.size, np.bool_)
+        index = np.minimum(np.searchsorted(self.stamp, stamps), self.stamp.size - 1)
+        return index, self.stamp[index] == stamps
+
+
+@dataclass(frozen=True)
+class Reference:
+    """The timed reference of a run.
+
+    Attributes:
+        track, controller, speed, side, tip_radius, laps: as in NominalTrajectory.
+        time: (n,) [s], equally spaced from 0.
+        pose: (n, 3) of the object [m, m, rad], heading continuous.
+        p_y: (n,) contact offset [m].
+        input: (n, 2) pusher velocity [v_n, v_t] in the body frame [m/s].
+    """
+
+    track: str
+    controller: str
+    speed: float
+    side: float
+    tip_radius: float
+    laps: int
+    time: Floats
+    pose: Floats
+    p_y: Floats
+    input: Floats
+
+    @property
+    def duration(self) -> float:
+        """Time [s] from start to end."""
+        return float(self.time[-1])
+
+    def pose_at(self, time: Floats) -> Floats:
+        """Reference pose (n, 3) at reference times (n,) [s], linear between samples."""
+        columns = [np.interp(time, self.time, column) for column in self.pose.T]
+        return np.stack(columns, axis=1)
+
+
+@dataclass(frozen=True)
+class Model:
+    """The model in use: its training size, hash and kind."""
+
+    points: int
+    hash: str
+    kind: str
+
+
+@dataclass(frozen=True)
+class Disturbance:
+    """A perturbation: when [ns], of what kind, how large (m or N s)."""
+
+    stamp: int
+    kind: int
+    magnitude: float
+
+
+# modes in which the reference runs
+FOLLOWING = (ControllerState.TRACKING, ControllerState.RECONTACT)
+# columns of `RunSeries.states`
+STATE_COLUMNS = (
+    'mode',
+    'reference_time',
+    'p_y',
+    'v_n',
+    'v_t',
+    'nominal_v_n',
+    'nominal_v_t',
+    'solve_ms',
+    'tick_ms',
+    'iterations',
+    'solver_status',
+    'limited',
+)
+
+
+@dataclass(frozen=True)
+class RunSeries:
+    """One run, decoded.
+
+    Attributes:
+        facts: of the run, as recorded.
+        finished: whether the bag came to its proper end.
+        traffic: received and lost by topic.
+        object: pose (n, 3) of the square [m, m, rad].
+        pusher: position (n, 2) of the tip [m].
+        commands: velocity (n, 2) in the world frame [m/s].
+        states: (n, len(STATE_COLUMNS)) of the controller's ticks, see `state`.
+        stop_reason: why the run ended before its end, else why the controller stopped last; empty
+            where neither is told of.
+        reference: None where none was recorded.
+        model: None where none was recorded.
+        disturbances: in order.
+        horizons: what the controller planned, as it lies in the bag; see `Horizons`.
+    """
+
+    facts: Mapping[str, str]
+    finished: bool
+    traffic: Mapping[str, Traffic]
+    object: Stamped
+    pusher: Stamped
+    commands: Stamped
+    states: Stamped
+    stop_reason: str
+    reference: Reference | None
+    model: Model | None
+    disturbances: tuple[Disturbance, ...]
+    horizons: tuple[Record, ...]
+
+    def state(self, name: str) -> Floats:
+        """One column (n,) of the controller's ticks, by its name in STATE_COLUMNS."""
+        return self.states.values[:, STATE_COLUMNS.index(name)]
+
+    @property
+    def following(self) -> NDArray[np.bool_]:
+        """Whether the reference ran in each of the controller's ticks (n,)."""
+        return np.isin(self.state('mode'), FOLLOWING)

@@ -1,0 +1,99 @@
+"""One topic's messages as a table that grows while the bag streams by."""
+
+from collections.abc import Callable, Collection
+
+import numpy as np
+from push_core.common.errors import InputError
+
+from push_bag.file.cdr_columns import Columns, columns
+from push_bag.file.cdr_layout import Leaf, leaves
+from push_bag.file.reader import Record
+from push_bag.file.topic import Topic
+from push_bag.run.conversions import stamps
+from push_bag.run.series import Floats, Stamped
+
+BATCH = 4096  # messages decoded at once: enough to be quick, few enough to stay small
+
+
+class TopicTable:
+    """Collects a topic's messages and decodes them batch by batch."""
+
+    def __init__(
+        self, fields: Collection[str], width: int, values: Callable[[Columns], Floats]
+    ) -> None:
+        """Starts empty.
+
+        Args:
+            fields: of the message that are needed, its stamp among them.
+            width: k, numbers in a row.
+            values: makes the rows (n, k) of the fields.
+        """
+        self._fields = fields
+        self._values = values
+        self._blocks = [_no_rows(width)]
+        self._topic: Topic | None = None
+        self._layout: list[Leaf] = []
+        self._messages: list[bytes] = []
+        self._published: list[int] = []
+
+    def add(self, record: Record) -> None:
+        """Takes one message.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
+        if record.topic is not self._topic:
+            self._begin(record.topic)
+        self._messages.append(record.data)
+        self._published.append(record.publish_ns)
+        if len(self._messages) >= BATCH:
+            self._decode()
+
+    def stamped(self) -> Stamped:
+        """All messages by stamp; of those that share a stamp the first one.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
+        rows = self.in_file_order()
+        _, first = np.unique(rows.stamp, return_index=True)
+        return Stamped(rows.stamp[first], rows.published[first], rows.values[first])
+
+    def in_file_order(self) -> Stamped:
+        """All messages as they came, whatever their stamps.
+
+        Raises:
+            InputError: a message is not of its topic's type.
+        """
+        self._decode()
+        stamp, published, values = (
+            np.concatenate([getattr(block, name) for block in self._blocks])
+            for name in ('stamp', 'published', 'values')
+        )
+        return Stamped(stamp, published, values)
+
+    def _begin(self, topic: Topic) -> None:
+        self._decode()
+        self._topic = topic
+        self._layout = leaves(topic.schema, topic.type_name.split('/')[0])
+        known = {leaf.name for leaf in self._layout}
+        missing = [name for name in self._fields if name not in known]
+        if missing:
+            raise InputError(f'{topic.name} is a {topic.type_name}, which has no {missing[0]}')
+
+    def _decode(self) -> None:
+        if self._topic is None or not self._messages:
+            return
+        try:
+            found = columns(self._messages, self._layout, self._fields)
+        except ValueError as error:
+            kind = self._topic.type_name
+            raise InputError(f'a message on {self._topic.name} is not a {kind}: {error}') from None
+        published = np.array(self._published, np.uint64).astype(np.int64)
+        self._blocks.append(Stamped(stamps(found), published, self._values(found)))
+        self._messages, self._published = [], []
+
+
+def _no_rows(width: int) -> Stamped:
+    nothing = np.zeros(0, np.int64)
+    return Stamped(nothing, nothing, np.zeros((0, width)))

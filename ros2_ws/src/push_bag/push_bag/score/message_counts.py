@@ -1,0 +1,46 @@
+"""How many messages of each topic came, and how many did not.
+
+lost             gaps in the publisher's numbers; without numbers, gaps in the grid of stamps,
+missing_stamps   gaps in the grid of stamps: what was never published counts as well,
+middleware_lost  what the middleware itself told the recorder.
+"""
+
+import numpy as np
+from push_node.cell_topics import short_name
+
+from push_bag.file.traffic import Traffic
+from push_bag.run.series import Nanoseconds, RunSeries
+
+POSE_PERIOD_NS = 10_000_000
+
+
+def message_counts(run: RunSeries) -> dict[str, dict[str, int | None]]:
+    """Counts per topic; None where nothing tells."""
+    stamps = {
+        'object_pose': run.object.stamp,
+        'pusher_pose': run.pusher.stamp,
+        'pusher_velocity_cmd': run.commands.stamp,
+        'controller_state': run.states.stamp,
+    }
+    return {
+        topic: _counts(seen, missing_stamps(stamps.get(short_name(topic))))
+        for topic, seen in sorted(run.traffic.items())
+    }
+
+
+def missing_stamps(stamps: Nanoseconds | None) -> int | None:
+    """Messages missing from a topic that has one each POSE_PERIOD_NS, by its stamps (n,) [ns]."""
+    if stamps is None:
+        return None
+    steps = np.rint(np.diff(stamps) / POSE_PERIOD_NS).astype(np.int64)
+    return int(np.sum(np.maximum(steps - 1, 0)))
+
+
+def _counts(seen: Traffic, missing: int | None) -> dict[str, int | None]:
+    known = seen.numbered or not seen.received
+    return {
+        'received': seen.received,
+        'lost': seen.lost if known else missing,
+        'missing_stamps': missing,
+        'middleware_lost': seen.middleware_lost,
+    }

@@ -1,0 +1,77 @@
+"""Several runs side by side, for people and for scripts."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from push_bag.score.figures import COMPARED, figure, mean_and_spread
+
+# what fits on a line; the JSON has all of COMPARED
+SHOWN = {
+    'mean mm': 'tracking_error_mm.mean',
+    'rms mm': 'tracking_error_mm.rms',
+    'p95 mm': 'tracking_error_mm.p95',
+    'max mm': 'tracking_error_mm.max',
+    'cross mm': 'cross_track_mm.rms',
+    'deg': 'heading_error_deg.rms',
+    'solve p99 ms': 'solve_ms.p99',
+    'tick p99 ms': 'tick_ms.p99',
+    'misses': 'deadline_misses',
+    'lost': 'lost',
+}
+Scores = Sequence[tuple[str, Mapping[str, Any]]]  # name and score of each run
+
+
+def runs_table(scores: Scores) -> str:
+    """One line for each run, then mean and spread (sample standard deviation) over the runs."""
+    rows = [('run', 'completed', *SHOWN)]
+    for name, score in scores:
+        figures = (figure(score, path) for path in SHOWN.values())
+        rows.append((name, 'yes' if score['completed'] else 'no', *map(_number, figures)))
+    done = sum(bool(score['completed']) for _, score in scores)
+    columns = [_over_runs(scores, path) for path in SHOWN.values()]
+    rows.append(('mean', f'{done} of {len(scores)}', *(_number(mean) for mean, _ in columns)))
+    rows.append(('spread', '', *(_number(spread) for _, spread in columns)))
+    return _aligned(rows)
+
+
+def comparison_table(scores: Scores) -> str:
+    """Figure by figure: the first run, the second one, and how much the second is higher."""
+    (first, one), (second, other) = scores
+    rows = [('figure', first, second, 'difference')]
+    for path in COMPARED:
+        before, after = figure(one, path), figure(other, path)
+        rows.append((path, _number(before), _number(after), _number(after - before)))
+    return _aligned(rows)
+
+
+def runs_object(scores: Scores) -> dict[str, Any]:
+    """All scores with mean and spread of each compared figure, for `--json`."""
+    over = {path: _over_runs(scores, path) for path in COMPARED}
+    return {
+        'runs': [{'run': name, **score} for name, score in scores],
+        'mean': {path: _known(mean) for path, (mean, _) in over.items()},
+        'spread': {path: _known(spread) for path, (_, spread) in over.items()},
+    }
+
+
+def _over_runs(scores: Scores, path: str) -> tuple[float, float]:
+    return mean_and_spread([figure(score, path) for _, score in scores])
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _number(value: float) -> str:
+    return f'{value:.3g}' if math.isfinite(value) else '-'
+
+
+def _aligned(rows: Sequence[tuple[str, ...]]) -> str:
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = (
+        f'{row[0]:<{widths[0]}}  '
+        + '  '.join(f'{cell:>{width}}' for cell, width in zip(row[1:], widths[1:], strict=True))
+        for row in rows
+    )
+    return '\n'.join(lines) + '\n'

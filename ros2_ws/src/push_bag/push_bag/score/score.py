@@ -1,0 +1,182 @@
+"""The score of a run: one JSON object, defined in one place.
+
+The formulas stand where the numbers are computed: tracking.py, contact.py, timing.py, traffic.py.
+`completed`: the reference came to its end (mode DONE) without a stop, with the pusher on the face
+and the object within END_DISTANCE of the reference's end.
+"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.common.strict_json import finite
+from push_msgs.msg import ControllerState
+
+from push_bag.run.run_reader import read_run
+from push_bag.run.series import Floats, Reference, RunSeries
+from push_bag.score.contact import contact, loss_intervals, on_face_at_end
+from push_bag.score.message_counts import message_counts
+from push_bag.score.timing import timing
+from push_bag.score.tracking import Tracking, track
+
+END_DISTANCE = 0.050  # [m]
+LIMITS = {
+    'not_finite': ControllerState.LIMITED_NOT_FINITE,
+    'speed': ControllerState.LIMITED_SPEED,
+    'acceleration': ControllerState.LIMITED_ACCELERATION,
+    'workspace': ControllerState.LIMITED_WORKSPACE,
+}
+
+
+def score_run(folder: Path) -> dict[str, Any]:
+    """The score of a recorded run.
+
+    Args:
+        folder: run folder or MCAP file; an unfinished one is scored as far as it goes.
+
+    Returns:
+        What `score --json` prints; None where a figure does not exist.
+
+    Raises:
+        InputError: there is no readable bag, or no reference in it.
+    """
+    return score_series(read_run(folder))
+
+
+def score_series(run: RunSeries) -> dict[str, Any]:
+    """The score of a run that was read already.
+
+    Raises:
+        InputError: the run holds no reference to score it against.
+    """
+    if run.reference is None:
+        raise InputError('the bag holds no nominal trajectory, so there is nothing to score')
+    tracking = track(run, run.reference)
+    score = {
+        **_verdict(run, run.reference, tracking),
+        **_setting(run, run.reference),
+        **_errors(tracking),
+        **_times(run),
+        'contact_losses': len(loss_intervals(contact(run, run.reference))),
+        'holds': holds(run),
+        'limited': limited(run),
+        'messages': message_counts(run),
+    }
+    found: dict[str, Any] = finite(score)
+    return found
+
+
+def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
+    """Whether the reference came to its end as the module's text says."""
+    modes = run.state('mode')
+    arrived = bool(np.any(modes == ControllerState.DONE))
+    stopped = bool(np.any(modes == ControllerState.STOPPED))
+    if not arrived or stopped or not tracking.stamp.size:
+        return False
+    end = tracking.pose[-1, :2] - reference.pose[-1, :2]
+    near = bool(np.hypot(*end) <= END_DISTANCE)
+    return near and on_face_at_end(contact(run, reference), reference)
+
+
+def limited(run: RunSeries) -> dict[str, int]:
+    """Ticks in which each limit changed the command while the reference ran."""
+    bits = run.state('limited')[run.following].astype(np.int64)
+    return {name: int(np.count_nonzero(bits & bit)) for name, bit in LIMITS.items()}
+
+
+def holds(run: RunSeries) -> int:
+    """Times that the controller held still for want of a fresh pose."""
+    holding = run.state('mode') == ControllerState.HOLDING
+    return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
+
+
+def _verdict(run: RunSeries, reference: Reference, tracking: Tracking) -> dict[str, Any]:
+    last = tracking.reference_time[-1] if tracking.stamp.size else 0.0
+    return {
+        'completed': completed(run, reference, tracking),
+        'stop_reason': run.stop_reason or None,
+        'bag_finished': run.finished,
+        'recovered_from': run.facts.get('recovered_from'),
+        'duration_s': min(float(last), reference.duration),
+    }
+
+
+def _setting(run: RunSeries, reference: Reference) -> dict[str, Any]:
+    return {
+        'track': reference.track,
+        'laps': reference.laps,
+        'speed_m_s': reference.speed,
+        'controller': reference.controller,
+        'profile': run.facts.get('profile'),
+        'mode': run.facts.get('mode'),
+        'seed': _seed(run.facts.get('seed')),
+        'model': _model(run),
+    }
+
+
+def _seed(text: str | None) -> int | str | None:
+    return int(text) if text is not None and text.lstrip('-').isdigit() else text
+
+
+def _model(run: RunSeries) -> dict[str, Any] | None:
+    if run.model is None:
+        return None
+    return {'points': run.model.points, 'hash': run.model.hash, 'kind': run.model.kind}
+
+
+def _errors(tracking: Tracking) -> dict[str, Any]:
+    distance = tracking.distance * 1e3
+    cross = tracking.cross_track * 1e3
+    heading = np.abs(np.degrees(tracking.heading))
+    return {
+        'tracking_error_mm': {
+            'mean': _mean(distance),
+            'rms': _rms(distance),
+            'p95': _percentile(distance, 95.0),
+            'max': _max(distance),
+            'mean_after_start': _mean(distance[tracking.after_start]),
+        },
+        'cross_track_mm': {'mean': _mean(cross), 'rms': _rms(cross), 'max': _max(np.abs(cross))},
+        'heading_error_deg': {
+            'mean': _mean(heading),
+            'rms': _rms(heading),
+            'max': _max(heading),
+        },
+    }
+
+
+def _times(run: RunSeries) -> dict[str, Any]:
+    times = timing(run)
+    return {
+        'solve_ms': _tail(times.solve),
+        'tick_ms': _tail(times.tick),
+        'pose_to_command_ms': _tail(times.pose_to_command),
+        'deadline_misses': times.deadline_misses,
+    }
+
+
+def _tail(values: Floats) -> dict[str, float]:
+    return {
+        'p50': _percentile(values, 50.0),
+        'p99': _percentile(values, 99.0),
+        'p999': _percentile(values, 99.9),
+        'max': _max(values),
+    }
+
+
+def _mean(values: Floats) -> float:
+    return float(np.mean(values)) if values.size else math.nan
+
+
+def _rms(values: Floats) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else math.nan
+
+
+def _max(values: Floats) -> float:
+    return float(np.max(values)) if values.size else math.nan
+
+
+def _percentile(values: Floats, percent: float) -> float:
+    return float(np.percentile(values, percent)) if values.size else math.nan

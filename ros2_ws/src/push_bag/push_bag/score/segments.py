@@ -1,0 +1,51 @@
+"""The straight segments of a polyline, and how far points are from them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from push_bag.run.series import Floats
+
+SHORTEST = 1e-30  # [m^2]; a segment without length is a point
+
+
+@dataclass(frozen=True)
+class Segments:
+    """Segments (n,) of a path (n + 1, 2); first and last go on straight beyond the ends.
+
+    Attributes:
+        x, y: where each begins [m].
+        along_x, along_y: from there to its end [m].
+        length_2: squared length [m^2].
+        low, high: of the share of its length that belongs to it.
+    """
+
+    x: Floats
+    y: Floats
+    along_x: Floats
+    along_y: Floats
+    length_2: Floats
+    low: Floats
+    high: Floats
+
+    @classmethod
+    def of(cls, path: Floats) -> 'Segments':
+        """The segments of a path (n + 1, 2)."""
+        x, y = path[:-1].T.copy()
+        along_x, along_y = np.diff(path, axis=0).T.copy()
+        low, high = np.zeros(x.size), np.ones(x.size)
+        # to be early or late is no error across
+        low[0], high[-1] = -np.inf, np.inf
+        length_2 = np.maximum(along_x**2 + along_y**2, SHORTEST)
+        return cls(x, y, along_x, along_y, length_2, low, high)
+
+    def distance(self, index: NDArray[np.intp], points: Floats) -> Floats:
+        """Distance (m,) of points (m, 2) to one segment each (m,), positive on the left."""
+        along_x, along_y = self.along_x[index], self.along_y[index]
+        to_x, to_y = points[:, 0] - self.x[index], points[:, 1] - self.y[index]
+        share = (to_x * along_x + to_y * along_y) / self.length_2[index]
+        np.clip(share, self.low[index], self.high[index], out=share)
+        away = np.hypot(to_x - share * along_x, to_y - share * along_y)
+        signed: Floats = np.copysign(away, along_x * to_y - along_y * to_x)
+        return signed

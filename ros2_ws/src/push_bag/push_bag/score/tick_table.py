@@ -1,0 +1,76 @@
+"""A run as one table: a row for each tick of the controller, columns in SI units."""
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from push_core.common.errors import InputError
+
+from push_bag.run.series import Floats, Nanoseconds, Reference, RunSeries, Stamped
+from push_bag.score.contact import contact
+from push_bag.score.tracking import Tracking, track
+
+Table: TypeAlias = dict[str, NDArray[np.float64] | NDArray[np.int64]]
+COUNTS = ('mode', 'iterations', 'solver_status', 'limited')
+
+
+def tick_table(run: RunSeries) -> Table:
+    """Columns (n,) by name; NaN where a tick has no such figure.
+
+    Raises:
+        InputError: the run holds no tick or no reference.
+    """
+    stamp, reference_time = run.states.stamp, run.state('reference_time')
+    if not stamp.size or run.reference is None:
+        raise InputError('the bag holds no ticks of a controller or no nominal trajectory')
+    return {
+        't_s': (stamp - stamp[0]) * 1e-9,
+        'stamp_ns': stamp,
+        'reference_time_s': np.where(np.isfinite(reference_time), reference_time, np.nan),
+        **_measured(run),
+        **_errors(track(run, run.reference), stamp),
+        **_contact(run, run.reference, stamp),
+        **{name: run.state(name) for name in ('v_n', 'v_t', 'nominal_v_n', 'nominal_v_t')},
+        'solve_s': run.state('solve_ms') * 1e-3,
+        'tick_s': run.state('tick_ms') * 1e-3,
+        **{name: run.state(name).astype(np.int64) for name in COUNTS},
+    }
+
+
+def _measured(run: RunSeries) -> Table:
+    stamp = run.states.stamp
+    x, y, theta = _at(run.object, stamp).T
+    tip_x, tip_y = _at(run.pusher, stamp).T
+    command_x, command_y = _at(run.commands, stamp).T
+    return {
+        **{'object_x_m': x, 'object_y_m': y, 'object_theta_rad': theta},
+        **{'tip_x_m': tip_x, 'tip_y_m': tip_y},
+        **{'command_x_m_s': command_x, 'command_y_m_s': command_y},
+    }
+
+
+def _errors(tracking: Tracking, stamp: Nanoseconds) -> Table:
+    values = np.column_stack(
+        [tracking.wanted, tracking.distance, tracking.cross_track, tracking.heading]
+    )
+    names = (
+        *('reference_x_m', 'reference_y_m', 'reference_theta_rad'),
+        *('tracking_error_m', 'cross_track_m', 'heading_error_rad'),
+    )
+    found = _at(Stamped(tracking.stamp, tracking.stamp, values), stamp)
+    return dict(zip(names, found.T, strict=True))
+
+
+def _contact(run: RunSeries, reference: Reference, stamp: Nanoseconds) -> Table:
+    touching = contact(run, reference)
+    values = np.column_stack([touching.p_y, touching.gap])
+    p_y, gap = _at(Stamped(touching.stamp, touching.stamp, values), stamp).T
+    return {'p_y_m': p_y, 'gap_m': gap}
+
+
+def _at(rows: Stamped, stamp: Nanoseconds) -> Floats:
+    """The values (n, k) of these stamps (n,), NaN where there are none."""
+    found = np.full((stamp.size, rows.values.shape[1]), np.nan)
+    index, there = rows.at(stamp)
+    found[there] = rows.values[index[there]]
+    return found

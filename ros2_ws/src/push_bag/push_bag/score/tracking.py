@@ -1,0 +1,113 @@
+"""How far the object was from its reference.
+
+For every pose recorded while the reference ran (TRACKING, RECONTACT) the controller states give
+the reference time of its exposure:
+    tracking error = |position(t) - reference position(reference time)|, the paper's metric;
+    cross-track error = signed distance to the nearest point of the reference path near that time,
+        positive to the left of the path, whose ends go on straight;
+    heading error = heading(t) - reference heading(reference time), wrapped.
+Poses count where 0 < reference time <= the reference's duration.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from push_bag.run.series import Floats, Nanoseconds, Reference, RunSeries
+from push_bag.score.segments import Segments
+
+NEAR = 0.06  # [m] of path to either side in which the nearest point is looked for
+START_SHARE = 0.1  # of the reference that `after_start` leaves out
+TIME_ROUNDING = 1e-9  # [s] by which the last sample may seem to lie after the end
+
+
+@dataclass(frozen=True)
+class Tracking:
+    """Errors of the poses that count, in order of time.
+
+    Attributes:
+        stamp: (n,) of the poses [ns].
+        reference_time: (n,) [s].
+        pose: (n, 3) measured [m, m, rad].
+        wanted: (n, 3) reference pose at the reference time.
+        distance: (n,) tracking error [m].
+        cross_track: (n,) [m].
+        heading: (n,) heading error [rad] in [-pi, pi).
+        after_start: (n,) whether the pose lies past the first tenth of the reference.
+    """
+
+    stamp: Nanoseconds
+    reference_time: Floats
+    pose: Floats
+    wanted: Floats
+    distance: Floats
+    cross_track: Floats
+    heading: Floats
+    after_start: NDArray[np.bool_]
+
+
+def tracking_interval(run: RunSeries) -> tuple[int, int] | None:
+    """First and last stamp [ns] at which the reference ran; None for never."""
+    stamps = run.states.stamp[run.following]
+    return (int(stamps[0]), int(stamps[-1])) if stamps.size else None
+
+
+def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
+    """Whether each of the stamps (n,) lies where the reference ran."""
+    interval = tracking_interval(run)
+    if interval is None:
+        return np.zeros(stamps.size, np.bool_)
+    return (stamps >= interval[0]) & (stamps <= interval[1])
+
+
+def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
+    """Reference time (n,) [s] at each of the stamps (n,) while the reference ran."""
+    ticks = run.following
+    known = run.states.stamp[ticks]
+    # differences of stamps: a float64 of the stamps themselves would round to 0.2 us
+    times: Floats = np.interp(
+        (stamps - known[0]).astype(np.float64),
+        (known - known[0]).astype(np.float64),
+        run.state('reference_time')[ticks],
+    )
+    return times
+
+
+def track(run: RunSeries, reference: Reference) -> Tracking:
+    """The errors of a run against its reference."""
+    tracked = during_tracking(run, run.object.stamp)
+    stamp, pose = run.object.stamp[tracked], run.object.values[tracked]
+    time = reference_times(run, stamp) if stamp.size else np.zeros(0)
+    counts = (time > 0.0) & (time <= reference.duration + TIME_ROUNDING)
+    stamp, pose, time = stamp[counts], pose[counts], time[counts]
+    wanted = reference.pose_at(time)
+    return Tracking(
+        stamp=stamp,
+        reference_time=time,
+        pose=pose,
+        wanted=wanted,
+        distance=np.hypot(*(pose[:, :2] - wanted[:, :2]).T),
+        cross_track=cross_track(reference, pose[:, :2], time),
+        heading=wrapped(pose[:, 2] - wanted[:, 2]),
+        after_start=time > START_SHARE * reference.duration,
+    )
+
+
+def cross_track(reference: Reference, points: Floats, time: Floats) -> Floats:
+    """Signed distance (n,) [m] of points (n, 2) to the path near reference times (n,) [s]."""
+    period = reference.duration / (reference.time.size - 1)
+    here = np.clip((time / period).astype(np.intp), 0, reference.time.size - 2)
+    reach = int(np.ceil(NEAR / max(reference.speed * period, 1e-6)))
+    segments = Segments.of(reference.pose[:, :2])
+    nearest = np.full(time.size, np.inf)
+    for shift in range(-min(reach, reference.time.size), min(reach, reference.time.size) + 1):
+        signed = segments.distance(np.clip(here + shift, 0, reference.time.size - 2), points)
+        nearest = np.where(np.abs(signed) < np.abs(nearest), signed, nearest)
+    return nearest
+
+
+def wrapped(angle: Floats) -> Floats:
+    """The same angles [rad] in [-pi, pi)."""
+    turned: Floats = (angle + np.pi) % (2.0 * np.pi) - np.pi
+    return turned

@@ -1,0 +1,220 @@
+"""`bench data`: the error of the GP controller over the number of pushes it learned from.
+
+The paper's figure: nested random draws of a large set of pushes, and the five of a die.
+"""
+
+import argparse
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from push_core.common.atomic_file import write_atomically
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError
+from push_core.common.strict_json import json_text
+from push_core.data.push_csv import read_pushes
+from push_core.data.push_set import PushSet
+from push_gp.models.analytical_model import ANALYTICAL
+from push_gp.models.mean_function import MEAN_FUNCTIONS
+from push_gp.models.model_file import save_model
+from push_gp.models.sampling import die_rows, nested_rows
+from push_gp.training.learn import learned
+from push_sim.commands.collect import collect
+from push_sim.settings.plant_settings import PROFILES
+from tqdm import tqdm
+
+from push_bringup.bench.options import add_lap_options, check_positive, opened_store
+from push_bringup.experiment.experiment import Experiment, Lap, LapJob
+from push_bringup.experiment.lap_pool import push_all, worker_pool
+
+SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
+TRACK = Experiment('eight', 0.08)
+COLLECTED = 10_000
+EPILOG = """Example: bench data --points 10 50 200 --draws 10 --html data.html
+Draw k takes its pushes at random with seed k, and is part of every larger draw of that seed.
+Exit status: 0 done, also where laps were not completed, 2 the command was wrong.
+"""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One training set: how many pushes, chosen how, over which mean."""
+
+    points: int
+    mean: str
+    choice: str
+    draw: int
+
+
+@dataclass(frozen=True)
+class Point:
+    """All draws of one size."""
+
+    points: int
+    mean: str
+    choice: str
+    laps: tuple[Lap, ...]
+
+    @property
+    def completed(self) -> int:
+        """How many laps came to their end."""
+        return sum(lap.completed for lap in self.laps)
+
+    @property
+    def quartiles(self) -> tuple[float, float, float] | None:
+        """Lower quartile, median and upper quartile [mm] of the completed laps, if there are."""
+        errors = [lap.mean_mm for lap in self.laps if lap.completed]
+        if not errors:
+            return None
+        low, middle, high = np.percentile(errors, [25.0, 50.0, 75.0]).tolist()
+        return low, middle, high
+
+    def as_json(self) -> dict[str, object]:
+        """The point as `--json` prints it."""
+        low, middle, high = self.quartiles or (None, None, None)
+        return {
+            'n': self.points,
+            'mean_function': self.mean,
+            'choice': self.choice,
+            'draws': len(self.laps),
+            'completed': self.completed,
+            'median_mm': middle,
+            'quartiles_mm': None if middle is None else [low, high],
+        }
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the benchmark."""
+    return run_command(parser(), work, argv)
+
+
+def parser() -> Parser:
+    """The command line."""
+    described = Parser('Pushes the 8-track at 80 mm/s with GPs of more and more pushes.', EPILOG)
+    described.prog = 'bench data'
+    described.add_argument(
+        '--points', type=int, nargs='+', default=list(SIZES), metavar='N', help='sizes'
+    )
+    described.add_argument('--draws', type=int, default=10, help='of each size (default 10)')
+    described.add_argument(
+        '--mean', choices=MEAN_FUNCTIONS, nargs='+', default=list(MEAN_FUNCTIONS)
+    )
+    described.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
+    described.add_argument(
+        '--data', type=Path, metavar='FILE', help=f'pushes; default: {COLLECTED} simulated ones'
+    )
+    described.add_argument(
+        '--models', type=Path, default=Path('runs/bench_models'), help='folder of the models'
+    )
+    add_lap_options(described, Path('runs/bench_data.jsonl'))
+    return described
+
+
+def work(arguments: argparse.Namespace) -> None:
+    """Trains, pushes and prints.
+
+    Raises:
+        InputError: the pushes cannot be read, or a number is out of range.
+    """
+    check_positive('--draws', arguments.draws)
+    store = opened_store(arguments)
+    pushes = _pushes(arguments)
+    choices = list(_choices(arguments, len(pushes)))
+    models = _trained(pushes, choices, arguments)
+    jobs = [LapJob(TRACK, 'gp', str(model), arguments.profile, 0) for model in models]
+    jobs.append(LapJob(TRACK, 'analytical', ANALYTICAL, arguments.profile, 0))
+    *laps, analytical = push_all(jobs, store, arguments.jobs)
+    points = _points(choices, laps)
+    if arguments.html is not None:
+        # plotly takes a second to import: only who asks for a page waits for it
+        from push_bringup.bench.data_page import data_page  # noqa: PLC0415
+
+        write_atomically(arguments.html, data_page(points, analytical).encode())
+    if arguments.json:
+        _print_json(points)
+    else:
+        sys.stdout.write(_table(points, analytical))
+
+
+def _pushes(arguments: argparse.Namespace) -> PushSet:
+    if arguments.data is not None:
+        return read_pushes(arguments.data)
+    return collect(COLLECTED, 0, arguments.profile, jobs=arguments.jobs)
+
+
+def _choices(arguments: argparse.Namespace, available: int) -> Iterator[Choice]:
+    for points in arguments.points:
+        if not 1 <= points <= available:
+            raise InputError(f'--points {points}: there are {available} pushes')
+    for mean in arguments.mean:
+        yield Choice(5, mean, 'die', 0)
+        for points in arguments.points:
+            for draw in range(arguments.draws):
+                yield Choice(points, mean, 'random', draw)
+
+
+def _trained(
+    pushes: PushSet, choices: Sequence[Choice], arguments: argparse.Namespace
+) -> list[Path]:
+    """The model files of the choices; those that are there already are taken as they are."""
+    folder = arguments.models / pushes.sha256()[:12]
+    folder.mkdir(parents=True, exist_ok=True)
+    files = [folder / f'{c.choice}_{c.points}_{c.mean}_{c.draw}.npz' for c in choices]
+    work = [
+        (file, pushes.take(chosen_rows(pushes, choice)), choice.mean)
+        for file, choice in zip(files, choices, strict=True)
+        if not file.is_file()
+    ]
+    if work:
+        with worker_pool(arguments.jobs) as pool:
+            done = pool.imap_unordered(_train, work)
+            list(tqdm(done, 'training', len(work), unit=' models', disable=None))
+    return files
+
+
+def _train(work: tuple[Path, PushSet, str]) -> None:
+    file, pushes, mean = work
+    save_model(file, learned(pushes, mean))
+
+
+def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:
+    """Row numbers of the pushes that a choice takes."""
+    if choice.choice == 'die':
+        return die_rows(pushes)
+    return nested_rows(pushes, choice.points, choice.draw)
+
+
+def _points(choices: Sequence[Choice], laps: Sequence[Lap]) -> list[Point]:
+    groups: dict[tuple[int, str, str], list[Lap]] = {}
+    for choice, lap in zip(choices, laps, strict=True):
+        groups.setdefault((choice.points, choice.mean, choice.choice), []).append(lap)
+    return [Point(*which, tuple(group)) for which, group in groups.items()]
+
+
+def _print_json(points: Iterable[Point]) -> None:
+    block = {'points': [point.as_json() for point in points]}
+    sys.stdout.write(json_text(block))
+
+
+def _table(points: Iterable[Point], analytical: Lap) -> str:
+    head = '| pushes | choice | mean function | completed | median | quartiles |'
+    lines = [head, '|---|---|---|---|---|---|', *map(_line, points)]
+    ended = 'completed' if analytical.completed else analytical.stop_reason
+    return '\n'.join(lines) + f'\n\nanalytical controller: {analytical.mean_mm:.2f} mm, {ended}\n'
+
+
+def _line(point: Point) -> str:
+    errors = '– | –'
+    if point.quartiles is not None:
+        low, middle, high = point.quartiles
+        errors = f'{middle:.2f} mm | {low:.2f} … {high:.2f} mm'
+    return (
+        f'| {point.points} | {point.choice} | {point.mean} '
+        f'| {point.completed} of {len(point.laps)} | {errors} |'
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main())

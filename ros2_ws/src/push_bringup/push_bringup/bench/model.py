@@ -1,0 +1,164 @@
+"""`ros2 run push_bringup bench model`: our Gaussian processes beside two public libraries'."""
+
+import argparse
+import importlib.util
+import multiprocessing
+import resource
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError, RunError
+from push_core.common.strict_json import json_text
+from push_core.data.accuracy import accuracy
+from push_core.data.push_csv import read_pushes
+from push_core.data.push_set import PushSet
+from push_gp.models.sampling import nested_rows
+from tqdm import tqdm
+
+from push_bringup.rivals.model_rivals import Fitted, fit_gpytorch, fit_ours, fit_scikit_learn
+
+RIVALS: dict[str, tuple[str, Callable[[PushSet], Fitted]]] = {
+    'push_gp': ('push_gp', fit_ours),
+    'scikit-learn': ('sklearn', fit_scikit_learn),
+    'GPyTorch': ('gpytorch', fit_gpytorch),
+}
+HORIZON = 35
+REPEATS = 30
+HELD_OUT = 500
+EPILOG = """Each runs in a process of its own, on one thread. 'make setup EXTRA=bench' installs
+the libraries; what is not there is left out. The JSON object holds `rivals`.
+"""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What one rival reached.
+
+    Attributes:
+        name: of the library.
+        fit_s: seconds of processor time for all three outputs, with hyperparameters.
+        predict_ms: milliseconds for mean and Jacobian of 35 pushes, the median of many.
+        memory_mb: peak memory of the fit, without that of the imports.
+        log_likelihood: of the training pushes [nat], the sum over the outputs.
+        nmse_push_frame: on pushes held out.
+    """
+
+    name: str
+    fit_s: float
+    predict_ms: float
+    memory_mb: float
+    log_likelihood: float
+    nmse_push_frame: float
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the comparison."""
+    return run_command(parser(), work, argv)
+
+
+def parser() -> Parser:
+    """The command line."""
+    described = Parser('Compares our Gaussian processes with those of public libraries.', EPILOG)
+    described.prog = 'bench model'
+    described.add_argument('data', type=Path, help='CSV file of pushes')
+    described.add_argument('--points', type=int, default=500, help='to train on (default 500)')
+    described.add_argument('--seed', type=int, default=0, help='of the choice of pushes')
+    described.add_argument('--json', action='store_true', help='print one JSON object instead')
+    return described
+
+
+def work(arguments: argparse.Namespace) -> None:
+    """Runs all rivals that are there and prints what they reached.
+
+    Raises:
+        InputError: the file or the number of points is wrong.
+    """
+    pushes = read_pushes(arguments.data)
+    if not 1 <= arguments.points <= len(pushes) - 2 or arguments.seed < 0:
+        raise InputError(
+            f'cannot train on {arguments.points} of {len(pushes)} pushes and hold some out; '
+            'choose fewer --points and a --seed from 0'
+        )
+    order = nested_rows(pushes, len(pushes), arguments.seed)
+    training = pushes.take(order[: arguments.points])
+    rest = pushes.take(order[arguments.points :][:HELD_OUT])
+    standings = list(_standings(training, rest))
+    if arguments.json:
+        block = {'points': len(training), 'rivals': [asdict(each) for each in standings]}
+        sys.stdout.write(json_text(block))
+    else:
+        sys.stdout.write(table(standings))
+
+
+def table(standings: Sequence[Standing]) -> str:
+    """The comparison as a Markdown table."""
+    head = '| library | fit | 35 means and Jacobians | memory | log likelihood | NMSE |\n'
+    rows = (
+        f'| {each.name} | {each.fit_s:.2f} s | {each.predict_ms:.2f} ms | {each.memory_mb:.0f} MB '
+        f'| {each.log_likelihood:.2f} | {each.nmse_push_frame:.4f} |\n'
+        for each in standings
+    )
+    return head + '|---|---|---|---|---|---|\n' + ''.join(rows)
+
+
+def _standings(training: PushSet, rest: PushSet) -> Iterator[Standing]:
+    fresh = multiprocessing.get_context('spawn')
+    for name in tqdm(RIVALS, desc='comparing', disable=None):
+        if importlib.util.find_spec(RIVALS[name][0]) is None:
+            sys.stderr.write(f"{name} is not installed: 'make setup EXTRA=bench' does it\n")
+            continue
+        ours, theirs = fresh.Pipe(duplex=False)
+        process = fresh.Process(target=_run, args=(name, training, rest, theirs))
+        process.start()
+        theirs.close()
+        try:
+            yield ours.recv()
+        except EOFError:
+            raise RunError(f'{name} ended without a result; see above') from None
+        finally:
+            process.join()
+
+
+def _run(name: str, training: PushSet, rest: PushSet, results: object) -> None:
+    """In the rival's own process."""
+    module, fit = RIVALS[name]
+    importlib.import_module(module)
+    # what a library imports and compiles at its first fit is not the fit's
+    fit(training.take(np.arange(min(10, len(training)))))
+    before, started = _peak_mb(), time.process_time()
+    fitted = fit(training)
+    seconds, memory = time.process_time() - started, _peak_mb() - before
+    queries = rest.inputs[np.arange(HORIZON) % len(rest)]
+    predicted, _ = fitted.predict(rest.inputs)
+    results.send(  # type: ignore[attr-defined]
+        Standing(
+            name,
+            seconds,
+            _milliseconds(fitted, queries),
+            memory,
+            fitted.log_likelihood(training),
+            float(accuracy(predicted, rest).nmse_push_frame.mean()),
+        )
+    )
+
+
+def _milliseconds(fitted: Fitted, queries: np.ndarray) -> float:
+    durations = []
+    for _ in range(REPEATS):
+        started = time.perf_counter()
+        fitted.predict(queries)
+        durations.append(time.perf_counter() - started)
+    return 1e3 * float(np.median(durations))
+
+
+def _peak_mb() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

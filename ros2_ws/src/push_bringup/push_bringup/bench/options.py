@@ -1,0 +1,56 @@
+"""What the benchmarks that push laps have in common on their command lines."""
+
+import argparse
+from pathlib import Path
+
+from push_core.common.atomic_file import check_place
+from push_core.common.command_line import Parser
+from push_core.common.errors import InputError
+
+from push_bringup.experiment.lap_pool import LapStore, cores
+
+
+def add_lap_options(parser: Parser, laps: Path) -> None:
+    """The options that every benchmark of laps takes."""
+    parser.add_argument(
+        '--jobs', type=int, default=cores(), help='processes (default %(default)s)'
+    )
+    parser.add_argument('--json', action='store_true', help='print one JSON object instead')
+    parser.add_argument('--html', type=Path, metavar='FILE', help='also write a page with figures')
+    parser.add_argument(
+        '--laps-file',
+        type=Path,
+        default=laps,
+        metavar='FILE',
+        help='keeps finished laps, so that an interrupted run goes on (default %(default)s)',
+    )
+    parser.add_argument('--fresh', action='store_true', help='forget the laps of that file')
+
+
+def add_controllers(parser: Parser) -> None:
+    """Which of the two push."""
+    parser.add_argument(
+        '--controllers', choices=('gp', 'analytical'), nargs='+', default=['gp', 'analytical']
+    )
+
+
+def opened_store(arguments: argparse.Namespace) -> LapStore:
+    """The file of laps that the options name.
+
+    Raises:
+        InputError: it cannot be used, or a number is out of range.
+    """
+    check_positive('--jobs', arguments.jobs)
+    if arguments.html is not None:
+        check_place(arguments.html)
+    return LapStore(arguments.laps_file, arguments.fresh)
+
+
+def check_positive(name: str, value: int) -> None:
+    """Refuses numbers below 1.
+
+    Raises:
+        InputError: it is one.
+    """
+    if value < 1:
+        raise InputError(f'{name} is {value}, must be at least 1')

@@ -1,0 +1,141 @@
+"""`bench table`: the paper's experiments beside the paper's numbers."""
+
+import argparse
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import fmean, median
+
+from push_core.common.atomic_file import write_atomically
+from push_core.common.command_line import Parser, run_command
+from push_core.common.strict_json import json_text
+from push_gp.models.analytical_model import ANALYTICAL
+from push_gp.models.model_file import load_model
+from push_sim.settings.plant_settings import PROFILES
+
+from push_bringup.bench.options import (
+    add_controllers,
+    add_lap_options,
+    check_positive,
+    opened_store,
+)
+from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob
+from push_bringup.experiment.lap_pool import push_all
+from push_bringup.setup.default_model import default_model
+
+EPILOG = """Example: bench table --profile irb120 ideal --seeds 5 --html table.html
+The laps are pushed in process, with all that is random drawn from seeds 0, 1, 2, …
+Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
+"""
+
+
+@dataclass(frozen=True)
+class Row:
+    """All laps of an experiment with one controller in one profile."""
+
+    experiment: Experiment
+    controller: str
+    profile: str
+    laps: tuple[Lap, ...]
+
+    @property
+    def completed(self) -> int:
+        """How many laps came to their end."""
+        return sum(lap.completed for lap in self.laps)
+
+    def as_json(self) -> dict[str, object]:
+        """The row as `--json` prints it."""
+        errors = [lap.mean_mm for lap in self.laps]
+        return {
+            'track': self.experiment.track,
+            'speed_m_s': self.experiment.speed,
+            'perturbation': self.experiment.perturbation,
+            'controller': self.controller,
+            'profile': self.profile,
+            'seeds': len(self.laps),
+            'completed': self.completed,
+            'median_mm': median(errors),
+            'mean_mm': fmean(errors),
+            'spread_mm': max(errors) - min(errors),
+            'paper_mm': PAPER_MM[self.experiment][self.controller],
+        }
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the benchmark."""
+    return run_command(parser(), work, argv)
+
+
+def parser() -> Parser:
+    """The command line."""
+    described = Parser("Pushes the rows of the paper's table with both controllers.", EPILOG)
+    described.prog = 'bench table'
+    described.add_argument('--seeds', type=int, default=5, help='laps of each row (default 5)')
+    described.add_argument(
+        '--profile', choices=tuple(PROFILES), nargs='+', default=['irb120'], help='of the plant'
+    )
+    described.add_argument(
+        '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
+    )
+    add_controllers(described)
+    add_lap_options(described, Path('runs/bench_table.jsonl'))
+    return described
+
+
+def work(arguments: argparse.Namespace) -> int:
+    """Pushes all rows and prints them.
+
+    Raises:
+        InputError: the model cannot be read, or a number is out of range.
+    """
+    check_positive('--seeds', arguments.seeds)
+    store = opened_store(arguments)
+    if arguments.model is not None:
+        load_model(Path(arguments.model))
+    models = {'gp': arguments.model or str(default_model()), 'analytical': ANALYTICAL}
+    cases = [
+        (experiment, controller, profile)
+        for profile in arguments.profile
+        for experiment in PAPER_MM
+        for controller in arguments.controllers
+    ]
+    jobs = [
+        LapJob(experiment, controller, models[controller], profile, seed)
+        for experiment, controller, profile in cases
+        for seed in range(arguments.seeds)
+    ]
+    laps = iter(push_all(jobs, store, arguments.jobs))
+    rows = [Row(*case, tuple(next(laps) for _ in range(arguments.seeds))) for case in cases]
+    if arguments.html is not None:
+        # plotly takes a second to import: only who asks for a page waits for it
+        from push_bringup.bench.table_page import table_page  # noqa: PLC0415
+
+        write_atomically(arguments.html, table_page(rows).encode())
+    if arguments.json:
+        sys.stdout.write(json_text({'rows': [row.as_json() for row in rows]}))
+    else:
+        sys.stdout.write(table(rows))
+    return 0 if all(row.completed == len(row.laps) for row in rows) else 1
+
+
+def table(rows: Iterable[Row]) -> str:
+    """The rows as a Markdown table."""
+    head = (
+        '| profile | track | speed | perturbation | controller | laps | median | spread | paper |'
+    )
+    return f'{head}\n|{"---|" * 9}\n' + ''.join(map(_line, rows))
+
+
+def _line(row: Row) -> str:
+    figures = row.as_json()
+    return (
+        f'| {row.profile} | {figures["track"]} | {1e3 * row.experiment.speed:.0f} mm/s '
+        f'| {figures["perturbation"]} | {figures["controller"]} '
+        f'| {figures["completed"]} of {figures["seeds"]} | {figures["median_mm"]:.2f} mm '
+        f'| {figures["spread_mm"]:.2f} mm | {figures["paper_mm"]:.2f} mm |\n'
+    )
+
+
+if __name__ == '__main__':
+    sys.exit(main())

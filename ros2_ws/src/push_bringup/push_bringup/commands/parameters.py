@@ -1,0 +1,61 @@
+"""`ros2 run push_bringup parameters`: every parameter of every node, as a Markdown page."""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from push_core.common.command_line import Parser, run_command
+from push_core.common.settings import Described, flatten
+
+from push_bringup.setup.cell_parameters import node_defaults
+
+HEAD = """# Parameters
+
+Every parameter of every node, with its default in the `irb120` profile. Set one with
+`cell -p NAME:=VALUE` (or `NODE.NAME:=VALUE` where several nodes share the name), in a parameter
+file, or with `--ros-args -p NAME:=VALUE` on a node. They are read at the start; an unknown name or
+a value out of range fails it. Made by `ros2 run push_bringup parameters`.
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Prints the page."""
+    return run_command(Parser('Prints the parameters of all nodes as Markdown.'), _work, argv)
+
+
+def page() -> str:
+    """The page, one table a node."""
+    return ''.join([HEAD, *(_section(*node) for node in node_defaults('irb120').items())])
+
+
+def _work(_arguments: argparse.Namespace) -> None:
+    sys.stdout.write(page())
+
+
+def _section(node: str, settings: Any) -> str:
+    rows = ''.join(_rows(flatten(settings)))
+    return f'\n## {node}\n\n| name | default | allowed | meaning |\n|---|---|---|---|\n{rows}'
+
+
+def _rows(values: dict[str, tuple[Any, Described]]) -> Iterator[str]:
+    for name, (value, described) in values.items():
+        yield f'| `{name}` | {_text(value)} | {_allowed(value, described)} | {described.text} |\n'
+
+
+def _allowed(value: Any, described: Described) -> str:
+    if isinstance(value, bool):
+        return 'true or false'
+    if isinstance(value, str) and not described.choices:
+        return 'text'
+    return described.range_text()
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f'{value:g}' if isinstance(value, float) else str(value)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Laps of an experiment, computed in several processes and kept."""

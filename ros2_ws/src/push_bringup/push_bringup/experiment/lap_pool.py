@@ -1,0 +1,111 @@
+"""Many laps: on all cores, with a progress bar, and never one of them twice.
+
+Every finished lap is appended to a file at once, so that an interrupted benchmark goes on where
+it was. A lap is known by the hash of its job; a change of the program is not seen, for which
+there is `--fresh`.
+"""
+
+import json
+import multiprocessing
+import os
+import signal
+from collections.abc import Sequence
+from dataclasses import asdict
+from multiprocessing.pool import Pool
+from pathlib import Path
+
+from push_core.common.errors import InputError
+from tqdm import tqdm
+
+from push_bringup.experiment.experiment import Lap, LapJob, pushed
+
+
+class LapStore:
+    """A file of finished laps, one JSON object a line."""
+
+    def __init__(self, path: Path, fresh: bool = False) -> None:
+        """Reads what is there.
+
+        Args:
+            path: of the file; made where there is none.
+            fresh: whether to forget what is there.
+
+        Raises:
+            InputError: the file cannot be read or written.
+        """
+        self._path = path
+        self._laps: dict[str, Lap] = {}
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.open('w' if fresh else 'a', encoding='utf-8').close()
+            text = path.read_text(encoding='utf-8', errors='replace')
+        except OSError as error:
+            raise InputError(f'cannot write {path}: {error.strerror}') from error
+        self._is_torn = bool(text) and not text.endswith('\n')
+        for line in text.splitlines():
+            self._take(line)
+
+    def find(self, job: LapJob) -> Lap | None:
+        """The lap, if it was pushed before."""
+        return self._laps.get(job.key)
+
+    def add(self, job: LapJob, lap: Lap) -> None:
+        """Keeps a lap, on disk as well."""
+        self._laps[job.key] = lap
+        line = json.dumps({'key': job.key, 'lap': asdict(lap)}, separators=(',', ':'))
+        with self._path.open('a', encoding='utf-8') as file:
+            # on a line of its own, also after one that a kill cut off
+            file.write(f'\n{line}\n' if self._is_torn else f'{line}\n')
+        self._is_torn = False
+
+    def _take(self, line: str) -> None:
+        try:
+            entry = json.loads(line)
+            self._laps[entry['key']] = Lap.from_json(entry['lap'])
+        except (ValueError, KeyError, TypeError):
+            # the end of a line that a kill cut off
+            return
+
+
+def push_all(jobs: Sequence[LapJob], store: LapStore, processes: int) -> list[Lap]:
+    """The laps of the jobs, in their order.
+
+    Args:
+        jobs: to be pushed, unless the store has them.
+        store: takes each lap as soon as it is done.
+        processes: that push at the same time.
+
+    Raises:
+        InputError: a job cannot be run.
+    """
+    left = [job for job in jobs if store.find(job) is None]
+    _push_missing(left, len(jobs), store, processes)
+    done = [store.find(job) for job in jobs]
+    return [lap for lap in done if lap is not None]
+
+
+def _push_missing(left: Sequence[LapJob], total: int, store: LapStore, processes: int) -> None:
+    if not left:
+        return
+    with tqdm(total=total, desc='pushing', unit=' laps', disable=None) as bar:
+        bar.update(total - len(left))
+        with worker_pool(processes) as pool:
+            for number, lap in pool.imap_unordered(_push, list(enumerate(left))):
+                store.add(left[number], lap)
+                bar.update()
+
+
+def worker_pool(processes: int) -> Pool:
+    """Processes that share work; Ctrl-C, which reaches all, is left to this one."""
+    context = multiprocessing.get_context('spawn')
+    return context.Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN))
+
+
+def cores() -> int:
+    """How many processes may push at the same time."""
+    return len(os.sched_getaffinity(0))
+
+
+def _push(numbered: tuple[int, LapJob]) -> tuple[int, Lap]:
+    number, job = numbered
+    return number, pushed(job)

@@ -1,0 +1,1 @@
+"""The nodes of a cell as processes, from start to stop."""

@@ -1,0 +1,52 @@
+"""A run of the real node graph: four processes over DDS."""
+
+import os
+import time
+from pathlib import Path
+
+from push_bringup.graph.cell_lock import CellLock
+from push_bringup.graph.processes import Processes
+from push_bringup.setup.cell_parameters import installed_config
+from push_bringup.setup.request import Request
+
+FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
+COMING_TO_REST = 0.3  # [s]: watchdog, braking, and the last messages on their way
+
+
+def run_graph(params: Path, request: Request, logs: Path) -> str:
+    """Starts the nodes, pushes once along the track, stops them cleanly.
+
+    Args:
+        params: resolved parameter file.
+        request: whose namespace and seed count here.
+        logs: folder for what the nodes say.
+
+    Returns:
+        Why the run ended before its end, empty if it did not.
+
+    Raises:
+        KeyboardInterrupt: a stop was requested.
+    """
+    with (
+        CellLock(request.namespace),
+        Processes(params, request.namespace, logs) as processes,
+    ):
+        os.environ.setdefault(FAST_DDS_PROFILES, str(installed_config('fastdds.xml')))
+        processes.start()
+        # rclpy takes its time to import: the nodes are starting meanwhile
+        from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
+
+        conductor = Conductor(request.namespace, processes)
+        try:
+            return conductor.run(request.seed)
+        finally:
+            _stop_in_order(processes)
+            conductor.close()
+
+
+def _stop_in_order(processes: Processes) -> None:
+    """The controller first; the recorder last, when the plant is at rest."""
+    processes.interrupt('mpc_node', 'gp_server')
+    time.sleep(COMING_TO_REST)
+    processes.stop('sim_node', 'mpc_node', 'gp_server')
+    processes.stop('recorder')

@@ -1,0 +1,120 @@
+"""The nodes as child processes: started together, watched, stopped in order."""
+
+import ctypes
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from push_core.common.errors import RunError
+
+MODULES = {
+    'sim_node': 'push_sim.node.sim_node',
+    'gp_server': 'push_gp.server.gp_server',
+    'mpc_node': 'push_mpc.node.mpc_node',
+    'recorder': 'push_bag.record.recorder',
+}
+PATIENCE = 10.0  # [s] for a node to end after SIGINT; one that is killed may leave half a bag
+_SET_PARENT_DEATH_SIGNAL = 1
+_LIBC = ctypes.CDLL(None)
+
+
+@dataclass(frozen=True)
+class Child:
+    """A running node."""
+
+    name: str
+    process: 'subprocess.Popen[bytes]'
+    log: Path
+
+    def last_words(self) -> str:
+        """The last line that it wrote, or how it ended."""
+        lines = self.log.read_text(encoding='utf-8', errors='replace').split('\n')
+        spoken = [line for line in lines if line.strip()]
+        code = self.process.returncode
+        killed = code is not None and code < 0
+        ended = f'was killed by signal {-code}' if killed else f'ended with status {code}'
+        return f'{self.name} {ended}' + (f': {spoken[-1]}' if spoken else '')
+
+
+class Processes:
+    """The nodes of one cell; use as a context manager, which leaves none behind."""
+
+    def __init__(self, params: Path, namespace: str, logs: Path) -> None:
+        self._params = params
+        self._namespace = namespace
+        self._logs = logs
+        self._children: dict[str, Child] = {}
+
+    def __enter__(self) -> 'Processes':
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.stop(*self._children)
+
+    def start(self) -> None:
+        """Starts all nodes."""
+        for name, module in MODULES.items():
+            command = [sys.executable, '-m', module, '--ros-args', *self._ros_arguments()]
+            log = self._logs / f'{name}.log'
+            with log.open('wb') as output:
+                # a session of its own: Ctrl-C reaches the cell, which stops the nodes in order
+                process = subprocess.Popen(
+                    command,
+                    stdin=subprocess.DEVNULL,
+                    stdout=output,
+                    stderr=output,
+                    start_new_session=True,
+                    preexec_fn=_die_with_parent,  # noqa: PLW1509  no thread runs yet
+                )
+            self._children[name] = Child(name, process, log)
+
+    def check(self) -> None:
+        """Raises if a node has ended.
+
+        Raises:
+            RunError: names the node and repeats its last words.
+        """
+        for child in self._children.values():
+            if child.process.poll() is not None:
+                raise RunError(child.last_words())
+
+    def status(self, name: str) -> int | None:
+        """Exit status of a node, None while it runs."""
+        return self._children[name].process.poll()
+
+    def interrupt(self, *names: str) -> None:
+        """Asks nodes to end."""
+        for name in names:
+            if self.status(name) is None:
+                self._children[name].process.send_signal(signal.SIGINT)
+
+    def stop(self, *names: str) -> None:
+        """Asks nodes to end, waits for them, and kills those that do not, saying so."""
+        self.interrupt(*names)
+        deadline = time.monotonic() + PATIENCE
+        for name in names:
+            self._wait(name, deadline)
+
+    def _wait(self, name: str, deadline: float) -> None:
+        process = self._children[name].process
+        try:
+            process.wait(max(deadline - time.monotonic(), 0.0))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            sys.stderr.write(f'cell: {name} did not end within {PATIENCE:g} s and was killed\n')
+
+    def _ros_arguments(self) -> list[str]:
+        arguments = ['--params-file', str(self._params)]
+        if self._namespace:
+            # simulated time is each cell's own
+            arguments += ['-r', f'__ns:=/{self._namespace}', '-r', '/clock:=clock']
+        return arguments
+
+
+def _die_with_parent() -> None:
+    """A killed cell leaves no nodes behind."""
+    _LIBC.prctl(_SET_PARENT_DEATH_SIGNAL, signal.SIGTERM)

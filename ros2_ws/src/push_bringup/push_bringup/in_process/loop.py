@@ -1,0 +1,97 @@
+"""A run in one process: the same plant and controller, without DDS, faster than real time."""
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+from push_gp.models.model import PushModel
+from push_mpc.loop.controller import Controller, Mode, Tick
+from push_mpc.plan.nominal import Plan
+from push_mpc.table.domain import Domain
+from push_mpc.table.surrogate import Table
+from push_mpc.table.tabulation import Answer, Question, Subject, tabulation
+from push_node.stamps import to_seconds
+from push_sim.plant.plant import Observation, Plant
+
+from push_bringup.setup.cell_parameters import CellParameters
+
+OnTick = Callable[[Observation, Tick, float], None]
+
+
+class InProcessCell:
+    """Plant and controller in one loop; gives the trajectory that lockstep gives.
+
+    Attributes:
+        plant: what is pushed.
+        controller: what pushes.
+    """
+
+    def __init__(self, parameters: CellParameters, model: PushModel, plan: Plan) -> None:
+        """Brings plant and controller together for a plan of these parameters."""
+        mpc = parameters.mpc
+        self.plant = Plant(parameters.sim, parameters.sim.slider)
+        self.controller = Controller(mpc, mpc.slider, plan)
+        self._slider = mpc.slider
+        self._seed = parameters.sim.seed
+        table = tabulated(model, mpc.slider.side)
+        self.controller.use(self.controller.prepared(table, model.info.model_id))
+
+    def run(self, on_tick: OnTick) -> str:
+        """Pushes once along the track.
+
+        Args:
+            on_tick: told of every observation, what the controller made of it, and the
+                milliseconds that this took.
+
+        Returns:
+            Why it stopped before the end, empty if it did not.
+        """
+        observation = self._reset()
+        origin = nanoseconds(observation.time)
+        self.controller.arm()
+        while self.controller.mode not in (Mode.DONE, Mode.STOPPED):
+            started = time.perf_counter()
+            tick = self.controller.step(
+                observation.object_pose,
+                observation.tip_position,
+                to_seconds(nanoseconds(observation.time) - origin),
+                to_seconds(nanoseconds(self.plant.time) - origin),
+            )
+            on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
+            self.controller.prepare_next()
+            self.plant.command(tick.velocity, self.plant.time)
+            observation = self.plant.step_until_seen()
+        return self.controller.stop_reason
+
+    def close(self) -> None:
+        """Frees the physics server."""
+        self.plant.close()
+
+    def _reset(self) -> Observation:
+        start = self.controller.plan.state[0]
+        tip = self._slider.tip_position(start[:3], start[3])
+        return self.plant.reset(start[:3], tip, self._seed)
+
+
+def tabulated(model: PushModel, side: float) -> Table:
+    """The table that the controller would make of the server's answers."""
+    info = model.info
+    data = Domain.of_data(info.p_y_domain, info.beta_domain, side)
+    conversation = tabulation(Subject(data, info.kind, info.mean_function, side))
+    question = next(conversation)
+    try:
+        while True:
+            question = conversation.send(_answer(model, question))
+    except StopIteration as done:
+        return done.value.table  # type: ignore[no-any-return]
+
+
+def _answer(model: PushModel, question: Question) -> Answer:
+    asked = (question.p_y, question.beta)
+    variance = model.variance(*asked) if question.want_variance else np.empty((0, 3))
+    return Answer.of(*model.evaluate(*asked), variance, model.distance)
+
+
+def nanoseconds(plant_time: float) -> int:
+    """What the topics call a plant time [s], in whole nanoseconds."""
+    return round(plant_time * 1e9)

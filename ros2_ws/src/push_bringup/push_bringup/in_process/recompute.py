@@ -1,0 +1,169 @@
+"""Computes the commands of a recorded run again, from its poses, with its controller or another.
+
+The controller is given exactly what it was given then: each pair of poses, the times that it knew,
+the model from the tick on at which it took it, starts and stops. What was sent then stays what it
+keeps in mind, for that is what moved the tip: another controller is asked what it would have sent
+next, at each tick anew.
+"""
+
+import math
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from push_bag.replay.recompute import Changes, Recomputed
+from push_bag.run.recorded_ticks import RecordedRun, RecordedTick
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array
+from push_gp.models.analytical_model import ANALYTICAL
+from push_gp.models.model import PushModel
+from push_gp.models.model_source import model_named
+from push_mpc.loop.controller import Controller, Mode
+from push_mpc.plan.planning import planned
+from tqdm import tqdm
+
+from push_bringup.in_process.loop import tabulated
+from push_bringup.in_process.recorded_model import RecordedModel
+from push_bringup.setup.cell_parameters import CellParameters, recorded_parameters
+
+PARAMS_FILE = 'params.yaml'
+ModelUsed = Callable[[str], PushModel]  # by the id of the one that the run used
+
+
+def recomputed(path: Path, changes: Changes) -> Recomputed:
+    """The commands of a run, recorded and computed again.
+
+    Args:
+        path: run folder or MCAP file.
+        changes: what shall differ from the recorded run.
+
+    Raises:
+        InputError: the bag lacks parameters, model or track, or a change is not possible.
+    """
+    run = RecordedRun(path)
+    with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
+        files = _unpacked(run, Path(scratch))
+        parameters = _parameters(run, changes, files)
+        shadow = Shadow(parameters, _model_used(run, parameters, files))
+    return _compared(run, shadow)
+
+
+class Shadow(Controller):
+    """A controller that computes what it would send and keeps in mind what was sent instead."""
+
+    def __init__(self, parameters: CellParameters, model_used: ModelUsed) -> None:
+        """Plans anew, from the parameters.
+
+        Args:
+            parameters: of the cell.
+            model_used: the model to use in place of the one that had an id.
+        """
+        super().__init__(parameters.mpc, parameters.mpc.slider, planned(parameters.mpc))
+        self._side = parameters.mpc.slider.side
+        self._model_used = model_used
+        self._recorded_id = ''
+        self._was_sent: Array | None = None
+
+    def answer(self, tick: RecordedTick) -> Array | None:
+        """What it sends at a recorded tick (2,) [m/s]; None where nothing can be computed."""
+        self._prepare_for(tick)
+        self._was_sent = tick.velocity
+        if math.isnan(tick.exposure):
+            return self._without_poses(tick)
+        if tick.object_pose is None or tick.tip is None:
+            return None
+        velocity = self.step(tick.object_pose, tick.tip, tick.exposure, tick.now).velocity
+        self.prepare_next()
+        return velocity
+
+    def _remember(self, velocity: Array, now: float) -> None:
+        super()._remember(velocity if self._was_sent is None else self._was_sent, now)
+
+    def _prepare_for(self, tick: RecordedTick) -> None:
+        """Takes the model and starts, where the recorded controller had done so."""
+        if tick.model_id != self._recorded_id:
+            self._take_model(tick.model_id)
+        begins = tick.mode == Mode.ARMED and self.mode != Mode.ARMED
+        if begins or (tick.mode == Mode.IDLE and self.mode == Mode.STOPPED):
+            self.resume()
+        if begins:
+            self.arm()
+
+    def _take_model(self, recorded_id: str) -> None:
+        model = self._model_used(recorded_id)
+        table = tabulated(model, self._side)
+        self.use(self.prepared(table, model.info.model_id))
+        self._recorded_id = recorded_id
+
+    def _without_poses(self, tick: RecordedTick) -> Array:
+        if tick.mode == Mode.STOPPED:
+            self.stop(tick.stop_reason)
+            return np.zeros(2)
+        return self.hold(tick.now).velocity
+
+
+def _compared(run: RecordedRun, shadow: Shadow) -> Recomputed:
+    stamps, recorded, computed, skipped = [], [], [], 0
+    for tick in tqdm(run.ticks(), total=len(run), unit='tick', desc='recomputing', disable=None):
+        velocity = shadow.answer(tick)
+        if tick.velocity is None or tick.mode == Mode.IDLE:
+            continue
+        if velocity is None:
+            skipped += 1
+            continue
+        stamps.append(tick.stamp)
+        recorded.append(tick.velocity)
+        computed.append(np.array(velocity))
+    return Recomputed(
+        np.array(stamps, np.int64),
+        np.array(recorded, np.float64).reshape(-1, 2),
+        np.array(computed, np.float64).reshape(-1, 2),
+        skipped,
+    )
+
+
+def _model_used(run: RecordedRun, parameters: CellParameters, files: dict[str, Path]) -> ModelUsed:
+    """The recorded model as it grew; where another was named, that one throughout."""
+    model = model_named(parameters.gp.model, parameters.gp.slider)
+    if parameters.gp != _parameters(run, Changes(), files).gp:
+        return lambda _recorded_id: model
+    return RecordedModel(model, parameters.gp.max_points, run.reader).grown_to
+
+
+def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:
+    """The attachments as files, by name."""
+    files = {}
+    for name, data in run.reader.attachments.items():
+        files[Path(name).name] = folder / Path(name).name
+        files[Path(name).name].write_bytes(data)
+    return files
+
+
+def _parameters(run: RecordedRun, changes: Changes, files: dict[str, Path]) -> CellParameters:
+    """The parameters of the run with the changes, and its files where they are now."""
+    if PARAMS_FILE not in files:
+        raise InputError(f'{run.reader.path} holds no {PARAMS_FILE}: who made it is not known')
+    text = files[PARAMS_FILE].read_text(encoding='utf-8')
+    overrides = dict(changes.params)
+    if changes.controller:
+        overrides['mpc_node.controller'] = changes.controller
+    parameters = recorded_parameters(text, overrides)
+    track = files.get(Path(parameters.mpc.track).name, parameters.mpc.track)
+    return replace(
+        parameters,
+        gp=replace(parameters.gp, model=_model(parameters.gp.model, changes, files)),
+        mpc=replace(parameters.mpc, track=str(track)),
+    )
+
+
+def _model(recorded: str, changes: Changes, files: dict[str, Path]) -> str:
+    """Name of the model: that of the run, unless the controller was changed to the analytical."""
+    if changes.model is not None:
+        return str(changes.model)
+    if changes.controller == ANALYTICAL:
+        return ANALYTICAL
+    if changes.controller and recorded == ANALYTICAL:
+        raise InputError('name a model file for --controller gp with --model')
+    return str(files.get(Path(recorded).name, recorded))

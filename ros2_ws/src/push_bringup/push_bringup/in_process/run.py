@@ -1,0 +1,40 @@
+"""A run in one process with its bag, as `cell --mode inprocess` makes it."""
+
+from push_bag.record.recorder import open_bag
+from push_gp.models.model import PushModel
+from push_mpc.loop.controller import Tick
+from push_mpc.plan.nominal import Plan
+from push_sim.plant.plant import Observation
+from tqdm import tqdm
+
+from push_bringup.in_process.loop import InProcessCell
+from push_bringup.in_process.record import InProcessRecord
+from push_bringup.setup.cell_parameters import CellParameters
+
+
+def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan) -> str:
+    """Pushes once along the track and records it.
+
+    Returns:
+        Why it stopped before the end, empty if it did not.
+
+    Raises:
+        RunError: the bag cannot be written.
+    """
+    cell = InProcessCell(parameters, model, plan)
+    duration = cell.controller.plan.duration
+    with (
+        open_bag(parameters.recorder) as writer,
+        tqdm(total=round(duration, 2), unit='s', desc='pushing', disable=None) as bar,
+    ):
+        record = InProcessRecord(writer, cell.plant, cell.controller)
+        record.head(parameters.mpc, model.info)
+
+        def on_tick(observation: Observation, tick: Tick, tick_ms: float) -> None:
+            record.tick(observation, tick, tick_ms)
+            bar.update(min(max(tick.reference_time, bar.n), duration) - bar.n)
+
+        try:
+            return cell.run(on_tick)
+        finally:
+            cell.close()

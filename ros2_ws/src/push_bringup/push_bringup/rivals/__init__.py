@@ -1,0 +1,1 @@
+"""Other QP solvers and GP libraries, for comparison."""

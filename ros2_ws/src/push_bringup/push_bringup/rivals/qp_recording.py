@@ -1,0 +1,75 @@
+"""The quadratic programs of a lap with kicks, tick by tick."""
+
+from pathlib import Path
+
+from push_gp.models.model_source import model_named
+from push_mpc.loop.controller import Mode, Tick
+from push_mpc.plan.planning import planned
+from push_mpc.qp.tracking_qp import Problem
+from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.plant import Observation
+from tqdm import tqdm
+
+from push_bringup.in_process.loop import InProcessCell
+from push_bringup.setup.cell_parameters import installed_config, resolved
+from push_bringup.setup.request import Request
+
+KICK_PERIOD = 4.0  # [s]
+KICKS = (
+    Perturbation(Kind.TANGENTIAL, 0.02),
+    Perturbation(Kind.NORMAL, 0.03),
+    Perturbation(Kind.TANGENTIAL, -0.02),
+    Perturbation(Kind.IMPULSE, 0.1, 1.0),
+)
+
+
+def recorded(controller: str, model: str, seed: int) -> list[tuple[Problem, ...]]:
+    """What the controller solved in each tick of the 8-track at 80 mm/s.
+
+    Args:
+        controller: gp or analytical.
+        model: path of the model file, or 'analytical'.
+        seed: of the plant's noise.
+    """
+    request = lap_request(controller, model, seed)
+    parameters = resolved(request, installed_config('cell.yaml'), Path('unused'), Path('unused'))
+    known = model_named(model, parameters.gp.slider)
+    cell = InProcessCell(parameters, known, planned(parameters.mpc))
+    problems: list[tuple[Problem, ...]] = []
+    with tqdm(total=cell.controller.plan.time.size, desc='recording', disable=None) as bar:
+
+        def on_tick(_observation: Observation, tick: Tick, _tick_ms: float) -> None:
+            if tick.mode == Mode.TRACKING:
+                problems.append(cell.controller.problems)
+                _kick(cell, len(problems))
+                bar.update()
+
+        try:
+            cell.run(on_tick)
+        finally:
+            cell.close()
+    return problems
+
+
+def lap_request(controller: str, model: str, seed: int) -> Request:
+    """The 8-track at 80 mm/s with a controller, a model and a seed."""
+    return Request(
+        track='eight',
+        speed=0.08,
+        controller=controller,
+        model=model,
+        profile='irb120',
+        perturb='none',
+        laps=1,
+        seed=seed,
+        mode='inprocess',
+        output=Path(),
+        namespace='',
+        overrides={},
+    )
+
+
+def _kick(cell: InProcessCell, tick: int) -> None:
+    count, rest = divmod(tick, round(KICK_PERIOD / cell.controller.settings.period))
+    if rest == 0:
+        cell.plant.perturb(KICKS[count % len(KICKS)])

@@ -1,0 +1,1 @@
+"""What is not about pushing: errors, settings, files, worker processes, command lines."""

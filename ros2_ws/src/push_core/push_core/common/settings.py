@@ -1,0 +1,129 @@
+"""Settings: frozen dataclasses whose fields carry description, unit and range.
+
+A component states its parameters once, as a frozen dataclass made of `setting` fields and nested
+settings. Nested ones become dotted names: `actuator.dead_time`.
+"""
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from push_core.common.errors import InputError
+
+T = TypeVar('T')
+
+
+@dataclasses.dataclass(frozen=True)
+class Described:
+    """What a field of a settings class promises."""
+
+    text: str
+    unit: str
+    low: float
+    high: float
+    choices: tuple[str, ...]
+
+    def range_text(self) -> str:
+        """Allowed values in words, for errors and documentation."""
+        if self.choices:
+            return 'one of ' + ', '.join(self.choices)
+        unit = f' {self.unit}' if self.unit else ''
+        return f'between {self.low:g} and {self.high:g}{unit}'
+
+
+def setting(
+    default: Any,
+    text: str,
+    *,
+    unit: str = '',
+    low: float = -math.inf,
+    high: float = math.inf,
+    choices: tuple[str, ...] = (),
+) -> Any:
+    """One field of a settings class.
+
+    Args:
+        default: value when nothing else is said; its type is the field's type.
+        text: one phrase that describes it.
+        unit: SI unit, '' where it has none.
+        low: smallest allowed number.
+        high: largest allowed number.
+        choices: allowed words, for a text field.
+    """
+    described = Described(text, unit, low, high, choices)
+    return dataclasses.field(default=default, metadata={'described': described})
+
+
+def nested(default: Any) -> Any:
+    """A field that holds another settings object."""
+    return dataclasses.field(default_factory=lambda: default)
+
+
+def flatten(settings: Any, prefix: str = '') -> dict[str, tuple[Any, Described]]:
+    """All values of a settings object by dotted name, each with its description."""
+    flat: dict[str, tuple[Any, Described]] = {}
+    for field in dataclasses.fields(settings):
+        value = getattr(settings, field.name)
+        name = prefix + field.name
+        if dataclasses.is_dataclass(value):
+            flat.update(flatten(value, name + '.'))
+        else:
+            flat[name] = (value, field.metadata['described'])
+    return flat
+
+
+def replaced(settings: T, changes: Mapping[str, Any]) -> T:
+    """A copy with some dotted names changed, checked.
+
+    Raises:
+        InputError: an unknown name, a wrong type or a value out of range.
+    """
+    known = flatten(settings)
+    for name in changes:
+        if name not in known:
+            raise InputError(f'unknown parameter {name!r}; known: {", ".join(known)}')
+    return _replaced(settings, changes, '')
+
+
+def _replaced(settings: T, changes: Mapping[str, Any], prefix: str) -> T:
+    values = {}
+    for field in dataclasses.fields(settings):  # type: ignore[arg-type]
+        old = getattr(settings, field.name)
+        name = prefix + field.name
+        if dataclasses.is_dataclass(old):
+            values[field.name] = _replaced(old, changes, name + '.')
+        else:
+            described = field.metadata['described']
+            values[field.name] = checked(name, changes.get(name, old), old, described)
+    return type(settings)(**values)
+
+
+def checked(name: str, value: Any, like: Any, described: Described) -> Any:
+    """The value, converted to the type of `like`, if it is in range.
+
+    Raises:
+        InputError: names the parameter, the value and its range.
+    """
+    if isinstance(like, float) and isinstance(value, int) and not isinstance(value, bool):
+        value = float(value)
+    if isinstance(like, str) and type(value) in (int, float):
+        value = f'{value:g}'
+    if type(value) is not type(like):
+        raise InputError(f'parameter {name} takes {type(like).__name__}, not {value!r}')
+    if described.choices and value not in described.choices:
+        raise InputError(f'parameter {name} is {value!r}, must be {described.range_text()}')
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if is_number and not described.low <= value <= described.high:
+        raise InputError(f'parameter {name} is {value:g}, must be {described.range_text()}')
+    return value
+
+
+def validate(settings: Any) -> None:
+    """Checks every value of a settings object; call it from `__post_init__`.
+
+    Raises:
+        InputError: names the parameter and its range.
+    """
+    for name, (value, described) in flatten(settings).items():
+        checked(name, value, value, described)

@@ -1,0 +1,1 @@
+"""Data sets of pushes and their CSV files, and the prediction error on them."""

@@ -1,0 +1,104 @@
+"""Long straight pushes of a square: where object and tip began, and where they came to."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from push_core.geometry.frames import Array, wrap_angle
+from push_core.physics.slider import Slider
+
+FACE_MARGIN = 1e-3
+"""How far [m] beyond the end of the face a tip still counts as on it: a rounded corner and the
+noise of the poses."""
+
+
+@dataclass(frozen=True)
+class EndErrors:
+    """How far from the measured end something else ended.
+
+    Attributes:
+        position: (n,) distances between the centres [m].
+        heading: (n,) absolute differences of the headings [rad].
+    """
+
+    position: Array
+    heading: Array
+
+    def of(self, chosen: NDArray[np.bool_]) -> dict[str, float | int | None]:
+        """The block that every command's JSON uses, of the chosen (n,) pushes."""
+        count = int(chosen.sum())
+        return {
+            'n': count,
+            'mean_mm': 1e3 * float(self.position[chosen].mean()) if count else None,
+            'mean_deg': math.degrees(self.heading[chosen].mean()) if count else None,
+        }
+
+
+@dataclass(frozen=True)
+class LongPushes:
+    """n straight pushes, world frame; a square is turned such that its pushed face is x = p_x.
+
+    Attributes:
+        slider: the square and the tip.
+        start: (n, 3) object poses before [m, m, rad].
+        end: (n, 3) object poses after.
+        tip_start: (n, 2) tip positions before [m].
+        tip_end: (n, 2) tip positions after.
+    """
+
+    slider: Slider
+    start: Array
+    end: Array
+    tip_start: Array
+    tip_end: Array
+
+    @classmethod
+    def on_any_face(
+        cls, slider: Slider, start: Array, end: Array, tip_start: Array, tip_end: Array
+    ) -> 'LongPushes':
+        """Pushes on whichever face the tip was at; turns each pose so that it is x = p_x."""
+        x, y = _in_body_frame(start, tip_start).T
+        quarter = np.round((np.arctan2(y, x) - math.pi) / (math.pi / 2.0)) * (math.pi / 2.0)
+        turn = np.column_stack((np.zeros((len(start), 2)), quarter))
+        return cls(slider, start + turn, end + turn, tip_start, tip_end)
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    def take(self, rows: NDArray[np.intp]) -> 'LongPushes':
+        """The pushes of the given row numbers, in their order."""
+        columns = (self.start, self.end, self.tip_start, self.tip_end)
+        return LongPushes(self.slider, *(column[rows] for column in columns))
+
+    @property
+    def direction(self) -> Array:
+        """(n,) world directions [rad] in which the tip went."""
+        travel = self.tip_end - self.tip_start
+        return np.asarray(np.arctan2(travel[:, 1], travel[:, 0]))
+
+    @property
+    def distance(self) -> Array:
+        """(n,) travel of the tip [m]."""
+        return np.asarray(np.hypot(*(self.tip_end - self.tip_start).T))
+
+    @cached_property
+    def on_face(self) -> NDArray[np.bool_]:
+        """(n,) whether the tip was still on the face at the end; it began there."""
+        p_y = _in_body_frame(self.end, self.tip_end)[:, 1]
+        return np.asarray(np.abs(p_y) <= self.slider.side / 2.0 + FACE_MARGIN)
+
+    def errors(self, end: Array) -> EndErrors:
+        """Compares other end poses (n, 3) with the measured ones."""
+        gap = end - self.end
+        heading = np.array([abs(wrap_angle(angle)) for angle in gap[:, 2].tolist()])
+        return EndErrors(np.asarray(np.hypot(gap[:, 0], gap[:, 1])), heading)
+
+
+def _in_body_frame(poses: Array, points: Array) -> Array:
+    """(n, 2) positions [m] in the body frames of (n, 3) poses of (n, 2) world points."""
+    cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    x, y = (points - poses[:, :2]).T
+    return np.column_stack((cos * x + sin * y, cos * y - sin * x))

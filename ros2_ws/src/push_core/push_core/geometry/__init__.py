@@ -1,0 +1,1 @@
+"""Planar geometry: frames, quaternions, displacements and twists."""

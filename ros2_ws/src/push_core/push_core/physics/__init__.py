@@ -1,0 +1,1 @@
+"""Mechanics of pushing: slider, limit surface, contact, motion cone, actuator, speed limits."""

@@ -1,0 +1,110 @@
+"""`push_gp train`: a model file from a file of pushes."""
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from push_core.common.atomic_file import check_place
+from push_core.common.command_line import Parser, run_command
+from push_core.common.errors import InputError
+from push_core.data.accuracy import OUTPUTS
+from push_core.data.push_csv import read_pushes
+from push_core.data.push_set import PushSet
+from tqdm import tqdm
+
+from push_gp.evaluation.summary import training_summary
+from push_gp.models.gp_model import GpModel
+from push_gp.models.mean_function import MEAN_FUNCTIONS
+from push_gp.models.model_file import save_model
+from push_gp.models.sampling import Rows, die_rows, nested_rows, random_rows, subset_rows
+from push_gp.training.learn import learned
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command; returns its exit status."""
+    return run_command(parser(), work, argv)
+
+
+def parser() -> Parser:
+    """The command line."""
+    arguments = Parser(
+        'Trains a model on a file of pushes.',
+        epilog='Example: train pushes.csv --points 200 --seed 0 -o model.npz',
+    )
+    arguments.prog = 'push_gp train'
+    arguments.add_argument('data', type=Path, help='CSV file of pushes')
+    arguments.add_argument('-o', '--output', type=Path, required=True, help='the model file')
+    which = arguments.add_mutually_exclusive_group()
+    which.add_argument('--points', type=int, help='how many random pushes; default: all')
+    which.add_argument('--subset', metavar='COLUMN', help='the pushes where COLUMN is 1')
+    which.add_argument(
+        '--pick',
+        choices=['die'],
+        help='the five pushes nearest to the five of a die: into the middle of the face, and 30 '
+        'degrees to either side half-way to its ends',
+    )
+    arguments.add_argument('--seed', type=int, help='of the random choice (default 0)')
+    arguments.add_argument(
+        '--nested',
+        action='store_true',
+        help='choose such that fewer --points of the same seed are part of more',
+    )
+    arguments.add_argument(
+        '--mean',
+        choices=MEAN_FUNCTIONS,
+        default='zero',
+        help='what to expect where no push was seen: nothing, or a fitted motion cone',
+    )
+    return arguments
+
+
+def work(arguments: argparse.Namespace) -> None:
+    """Trains, saves and says what came out."""
+    check_place(arguments.output)
+    pushes = read_pushes(arguments.data)
+    rows = chosen_rows(pushes, arguments)
+    model = _trained(pushes.take(rows), arguments.mean)
+    save_model(arguments.output, model)
+    rest = np.setdiff1d(np.arange(len(pushes)), rows)
+    summary = training_summary(model, pushes.take(rest) if rest.size > 1 else None)
+    sys.stdout.write(f'{summary}\nmodel {model.info.model_id} written to {arguments.output}\n')
+
+
+def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
+    """Row numbers of the pushes to train on.
+
+    Raises:
+        InputError: the set does not hold them.
+    """
+    random = arguments.subset is None and not arguments.pick
+    if not random and (arguments.seed is not None or arguments.nested):
+        raise InputError('--seed and --nested are of a random choice, which was not asked for')
+    if arguments.subset is not None:
+        return subset_rows(pushes, arguments.subset)
+    if arguments.pick:
+        return die_rows(pushes)
+    seed = arguments.seed or 0
+    if seed < 0:
+        raise InputError(f'--seed is {seed}, must not be negative')
+    points = len(pushes) if arguments.points is None else arguments.points
+    choose = nested_rows if arguments.nested else random_rows
+    return choose(pushes, points, seed)
+
+
+def _trained(pushes: PushSet, mean: str) -> GpModel:
+    started = time.monotonic()
+    with tqdm(desc=f'fitting {len(pushes)} pushes', total=len(OUTPUTS), disable=None) as bar:
+        model = learned(pushes, mean, lambda _output: bar.update())
+    seconds = time.monotonic() - started
+    sys.stdout.write(
+        f'{len(pushes)} pushes of {pushes.distance * 1e3:g} mm, {mean} mean, '
+        f'fitted in {seconds:.1f} s\n'
+    )
+    return model
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Errors of a model on held-out pushes: figures and pages."""

@@ -1,0 +1,39 @@
+"""How honest a model's variances are: likelihood of measured pushes, coverage of its intervals."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.data.accuracy import READABLE
+from push_core.data.push_set import PushSet
+from push_core.geometry.frames import Array
+
+from push_gp.models.gp_model import GpModel
+from push_gp.models.model import PushModel
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Of a model's distribution of a measurement.
+
+    Attributes:
+        nlpd: (3,) mean negative log predictive density [nat], outputs in [mm, mm, deg].
+        coverage_95: (3,) share of measurements within the 95 % interval.
+    """
+
+    nlpd: Array
+    coverage_95: Array
+
+
+def calibration(model: PushModel, pushes: PushSet) -> Calibration | None:
+    """Compares the model's distribution of a measurement with measured pushes.
+
+    None where it has no distribution.
+    """
+    if not isinstance(model, GpModel):
+        return None
+    predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
+    variance = model.variance(pushes.p_y, pushes.beta) + model.noise_variance
+    squared = (predicted - pushes.displacement) ** 2 / variance
+    density = 0.5 * (squared + np.log(2.0 * math.pi * variance / READABLE**2))
+    return Calibration(density.mean(axis=0), np.mean(squared <= model.interval_95**2, axis=0))

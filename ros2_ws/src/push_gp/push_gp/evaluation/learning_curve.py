@@ -1,0 +1,111 @@
+"""How the error on unseen pushes falls with the number of training pushes."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.data.accuracy import accuracy
+from push_core.data.push_set import PushSet
+from push_core.geometry.frames import Array
+
+from push_gp.evaluation.calibration import calibration
+from push_gp.models.model import PushModel
+from push_gp.training.fit_cone import fitted_cone
+from push_gp.training.learn import learned
+
+SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
+HELD_OUT = 0.2
+"""Share of the pushes that no model of a seed is trained on."""
+
+LIMIT_SURFACE = 'limit_surface'
+METHODS = ('zero', 'analytical', LIMIT_SURFACE)
+"""A GP over nothing, one over the fitted motion cone, and that cone alone."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """One place on the curve.
+
+    Attributes:
+        points: training pushes.
+        method: one of `METHODS`.
+        nmse: (seeds,) mean NMSE in the push frame on the pushes held out.
+        coverage: (seeds,) mean share within the 95 % interval; NaN without one.
+    """
+
+    points: int
+    method: str
+    nmse: Array
+    coverage: Array
+
+    def as_json(self) -> dict[str, object]:
+        """The place as `curve --json` prints it."""
+        low, median, high = np.quantile(self.nmse, [0.25, 0.5, 0.75]).tolist()
+        known = bool(np.isfinite(self.coverage).all())
+        return {
+            'n': self.points,
+            'method': self.method,
+            'nmse_push_frame': {
+                'median': median,
+                'quartiles': [low, high],
+                'worst': float(self.nmse.max()),
+                'seeds': self.nmse.tolist(),
+            },
+            'coverage_95': float(self.coverage.mean()) if known else None,
+        }
+
+
+def sizes_within(count: int, wanted: Sequence[int] | None = None) -> list[int]:
+    """The wanted numbers of training pushes, or those of `SIZES` that `count` pushes allow.
+
+    Raises:
+        InputError: the pushes do not allow one that is wanted, or none.
+    """
+    most = count - _held_out(count)
+    sizes = [size for size in SIZES if size <= most] if wanted is None else list(wanted)
+    wrong = [size for size in sizes or SIZES[:1] if not 1 <= size <= most]
+    if wrong:
+        raise InputError(f'cannot train on {wrong[0]}: {count} pushes allow 1 to {most} of them')
+    return sizes
+
+
+def learning_curve(
+    pushes: PushSet, sizes: Sequence[int], seeds: int, progress: Callable[[], object]
+) -> Iterator[Place]:
+    """The places, by number of pushes and method.
+
+    In each seed the larger training sets hold the smaller ones, and all are scored on the same
+    pushes, which none of them holds.
+
+    Args:
+        pushes: to draw from.
+        sizes: numbers of training pushes.
+        seeds: draws of each, from seed 0.
+        progress: told of each model done.
+    """
+    draws = [np.random.default_rng(seed).permutation(len(pushes)) for seed in range(seeds)]
+    for size in sizes:
+        for method in METHODS:
+            scores = []
+            for draw in draws:
+                rest = pushes.take(draw[len(pushes) - _held_out(len(pushes)) :])
+                scores.append(_score(_model(pushes.take(draw[:size]), method), rest))
+                progress()
+            nmse, coverage = np.array(scores).T
+            yield Place(size, method, nmse, coverage)
+
+
+def _held_out(count: int) -> int:
+    return max(2, round(HELD_OUT * count))
+
+
+def _model(pushes: PushSet, method: str) -> PushModel:
+    return fitted_cone(pushes) if method == LIMIT_SURFACE else learned(pushes, method)
+
+
+def _score(model: PushModel, rest: PushSet) -> tuple[float, float]:
+    predicted, _ = model.evaluate(rest.p_y, rest.beta)
+    known = calibration(model, rest)
+    covered = float(known.coverage_95.mean()) if known else float('nan')
+    return float(accuracy(predicted, rest).nmse_push_frame.mean()), covered

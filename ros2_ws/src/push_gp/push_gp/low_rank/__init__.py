@@ -1,0 +1,1 @@
+"""Low-rank kernels: Chebyshev modes of the kernel, for large training sets."""

@@ -1,0 +1,1 @@
+"""Models of a push: the interface, the motion cone, the Gaussian processes, and their files."""

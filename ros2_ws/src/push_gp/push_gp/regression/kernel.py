@@ -1,0 +1,61 @@
+"""The squared exponential kernel of the paper, exp(-sum_j (x_j - x'_j)^2 / l_j^2), with ARD.
+
+It has no half in the exponent: a lengthscale here is sqrt(2) times one of most libraries.
+"""
+
+import numpy as np
+from push_core.geometry.frames import Array
+
+from push_gp.regression.hyperparameters import Hyperparameters
+
+
+def squared_differences(inputs: Array) -> Array:
+    """(2, n, n) squared differences within (n, 2) inputs; exact zeros on the diagonal."""
+    differences = inputs.T[:, :, None] - inputs.T[:, None, :]
+    differences *= differences
+    return differences
+
+
+def correlation(
+    differences: Array, lengthscales: tuple[float, float], out: Array | None = None
+) -> Array:
+    """(n, n) kernel of unit signal for `squared_differences` (2, n, n), into `out` if given."""
+    first, second = (-1.0 / lengthscale**2 for lengthscale in lengthscales)
+    exponent: Array = np.multiply(differences[0], first, out=out)
+    exponent += differences[1] * second
+    np.exp(exponent, out=exponent)
+    return exponent
+
+
+def cross_covariance(queries: Array, inputs: Array, hyperparameters: Hyperparameters) -> Array:
+    """(m, n) covariances between (m, 2) queries and (n, 2) inputs."""
+    a, b = (points / hyperparameters.lengthscales for points in (queries, inputs))
+    covariance: Array = query_features(a) @ input_features(b).T
+    np.exp(covariance, out=covariance)
+    covariance *= hyperparameters.signal_std**2
+    return covariance
+
+
+def query_features(a: Array) -> Array:
+    """(..., m, 4) features whose product with `input_features` is the exponent -|a - b|^2.
+
+    One matrix product is many times faster than differences, and exact to a few units of the last
+    place for the few lengthscales that inputs span here.
+
+    Args:
+        a: (..., m, 2) queries divided by the lengthscales.
+    """
+    features = np.empty((*a.shape[:-1], 4))
+    features[..., :2] = 2.0 * a
+    features[..., 2] = -np.sum(a * a, axis=-1)
+    features[..., 3] = 1.0
+    return features
+
+
+def input_features(b: Array) -> Array:
+    """(..., n, 4) the other side of `query_features`, for inputs divided by the lengthscales."""
+    features = np.empty((*b.shape[:-1], 4))
+    features[..., :2] = b
+    features[..., 2] = 1.0
+    features[..., 3] = -np.sum(b * b, axis=-1)
+    return features

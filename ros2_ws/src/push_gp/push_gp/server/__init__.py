@@ -1,0 +1,1 @@
+"""The model server: answers queries for means, variances and Jacobians over ROS."""

@@ -1,0 +1,79 @@
+"""Messages to arrays and back."""
+
+from array import array
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from push_core.common.errors import InputError
+from push_core.data.push_set import PushSet
+from push_core.geometry.frames import Array
+from push_msgs.msg import AddedPushes
+from push_msgs.msg import ModelInfo as ModelInfoMessage
+from push_msgs.srv import AddPushes, Predict
+
+from push_gp.models.model import ModelInfo
+
+
+def model_info_message(info: ModelInfo, stamp: Time) -> ModelInfoMessage:
+    """What a model is, with the time [since the epoch] at which it was loaded or extended."""
+    message = ModelInfoMessage(
+        model_id=info.model_id,
+        model_hash=info.model_hash,
+        kind=info.kind,
+        mean_function=info.mean_function,
+        points=info.points,
+        training_set_hash=info.training_set_hash,
+        distance=info.distance,
+        p_y_domain=np.array(info.p_y_domain),
+        beta_domain=np.array(info.beta_domain),
+        lengthscales=info.lengthscales.ravel(),
+        signal_std=info.signal_std,
+        noise_std=info.noise_std,
+    )
+    message.header.stamp = stamp
+    return message
+
+
+def queries_of(request: Predict.Request) -> tuple[Array, Array]:
+    """(n,) contact offsets [m] and (n,) push directions [rad] of a request."""
+    return _vector(request.p_y), _vector(request.beta)
+
+
+def added_pushes_message(pushes: PushSet, model_id: str, stamp: Time) -> AddedPushes:
+    """Pushes that a server took in, and the model that they made at a time [since the epoch]."""
+    message = AddedPushes(
+        model_id=model_id,
+        p_y=flat(pushes.p_y),
+        beta=flat(pushes.beta),
+        displacement=flat(pushes.displacement),
+        distance=pushes.distance,
+    )
+    message.header.stamp = stamp
+    return message
+
+
+def pushes_of(request: AddPushes.Request | AddedPushes) -> PushSet:
+    """The pushes of a request, or of those that were taken in.
+
+    Raises:
+        InputError: the lengths do not fit, or a value is no good.
+    """
+    displacement = _vector(request.displacement)
+    if displacement.size != 3 * len(request.p_y) or len(request.beta) != len(request.p_y):
+        raise InputError(
+            f'{len(request.p_y)} p_y, {len(request.beta)} beta and {displacement.size} '
+            'displacement values: the last must be three for each push'
+        )
+    p_y, beta = _vector(request.p_y), _vector(request.beta)
+    return PushSet(p_y, beta, displacement.reshape(-1, 3), request.distance)
+
+
+def flat(values: Array) -> 'array[float]':
+    """Row-major numbers in the one form that goes into a message without a loop."""
+    return array('d', np.ascontiguousarray(values, dtype=np.float64).tobytes())
+
+
+def _vector(values: Iterable[float] | Any) -> Array:
+    return np.array(values, dtype=np.float64)

@@ -1,0 +1,122 @@
+"""The node that answers for the model: `push_gp/predict`, `push_gp/add_pushes`, `model_info`."""
+
+import sys
+from collections.abc import Sequence
+
+from push_core.common.errors import PushError
+from push_core.data.push_set import PushSet
+from push_msgs.msg import AddedPushes, ModelInfo
+from push_msgs.srv import AddPushes, Predict
+from push_node.diagnostics import Reporter
+from push_node.parameters import declared
+from push_node.qos import HISTORY, LATCHED
+from push_node.spin import run_node
+from rclpy.node import Node
+
+from push_gp.models.model_source import model_named
+from push_gp.server.conversions import (
+    added_pushes_message,
+    flat,
+    model_info_message,
+    pushes_of,
+    queries_of,
+)
+from push_gp.server.model_server import ModelServer
+from push_gp.server.server_settings import ServerSettings
+
+REPORT_PERIOD = 1.0
+
+
+class GpServer(Node):  # type: ignore[misc]
+    """Parameters, services and topics around a `ModelServer`."""
+
+    def __init__(self) -> None:
+        """Loads the model and announces it.
+
+        Raises:
+            InputError: a parameter or the model file is wrong.
+        """
+        super().__init__('gp_server')
+        settings = declared(self, ServerSettings())
+        model = model_named(settings.model, settings.slider, settings.distance)
+        self._server = ModelServer(model, settings.max_points)
+        self._answered = self._refused = 0
+        self._announcements = self.create_publisher(ModelInfo, 'model_info', LATCHED)
+        self._added = self.create_publisher(AddedPushes, 'added_pushes', HISTORY)
+        self._reporter = Reporter(self, 'model')
+        self._entities = (
+            self.create_service(Predict, 'push_gp/predict', self._predict),
+            self.create_service(AddPushes, 'push_gp/add_pushes', self._add_pushes),
+            self.create_timer(REPORT_PERIOD, self._report),
+        )
+        self._announce()
+
+    def _predict(self, request: Predict.Request, response: Predict.Response) -> Predict.Response:
+        try:
+            p_y, beta = queries_of(request)
+            found = self._server.predict(p_y, beta, want_variance=request.want_variance)
+        except PushError as error:
+            self._refuse(response, error)
+            return response
+        self._accept(response)
+        response.mean, response.jacobian = flat(found.mean), flat(found.jacobian)
+        response.variance = flat(found.variance)
+        return response
+
+    def _add_pushes(
+        self, request: AddPushes.Request, response: AddPushes.Response
+    ) -> AddPushes.Response:
+        try:
+            pushes = pushes_of(request)
+            self._server.add_pushes(pushes)
+        except PushError as error:
+            self._refuse(response, error)
+        else:
+            self._accept(response)
+            self._tell_of(pushes)
+            self._announce()
+        response.points = self._server.info.points
+        return response
+
+    def _tell_of(self, pushes: PushSet) -> None:
+        stamp = self.get_clock().now().to_msg()
+        self._added.publish(added_pushes_message(pushes, self._server.info.model_id, stamp))
+
+    def _accept(self, response: Predict.Response | AddPushes.Response) -> None:
+        self._answered += 1
+        response.success = True
+        response.model_id = self._server.info.model_id
+
+    def _refuse(self, response: Predict.Response | AddPushes.Response, error: PushError) -> None:
+        self._refused += 1
+        response.success = False
+        response.message = str(error)
+        response.model_id = self._server.info.model_id
+
+    def _announce(self) -> None:
+        info = self._server.info
+        self._announcements.publish(model_info_message(info, self.get_clock().now().to_msg()))
+        self.get_logger().info(
+            f'serving {info.kind} model {info.model_id}: {info.points} pushes, '
+            f'{info.mean_function} mean, {info.distance * 1e3:g} mm per answer'
+        )
+        self._report()
+
+    def _report(self) -> None:
+        info = self._server.info
+        values = {
+            'model_id': info.model_id,
+            'points': str(info.points),
+            'answered': str(self._answered),
+            'refused': str(self._refused),
+        }
+        self._reporter.report(True, 'ready', values)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the node; returns its exit status."""
+    return run_node(GpServer, argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,33 @@
+"""Parameters of the model server."""
+
+from dataclasses import dataclass
+
+from push_core.common.settings import nested, setting, validate
+from push_core.physics.slider import Slider
+
+from push_gp.models.analytical_model import ANALYTICAL, NOMINAL_DISTANCE
+
+
+@dataclass(frozen=True)
+class ServerSettings:
+    """What the server answers with."""
+
+    model: str = setting(ANALYTICAL, "path of a model file, or 'analytical' for the motion cone")
+    max_points: int = setting(
+        5000,
+        'training pushes beyond which add_pushes drops the older of the two closest; a larger '
+        'model is served as it is until then',
+        low=1,
+        high=20_000,
+    )
+    distance: float = setting(
+        NOMINAL_DISTANCE,
+        'travel of the pusher that one answer of the analytical model covers',
+        unit='m',
+        low=1e-4,
+        high=0.1,
+    )
+    slider: Slider = nested(Slider())
+
+    def __post_init__(self) -> None:
+        validate(self)

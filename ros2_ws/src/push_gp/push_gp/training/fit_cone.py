@@ -1,0 +1,47 @@
+"""Fits the two numbers of the motion cone that a table of materials does not tell."""
+
+import numpy as np
+from push_core.data.push_set import HALF_FACE, PushSet
+from push_core.geometry.frames import Array
+from push_core.physics.slider import Slider
+from scipy.optimize import least_squares
+
+from push_gp.models.analytical_model import AnalyticalModel
+
+NOMINAL = Slider(friction_pusher=0.3, support_radius=0.0344)
+"""Tabulated friction, and the support radius of uniform pressure."""
+
+BELIEF = np.array([0.12, 0.012])
+"""Standard deviations of the logarithms of friction and support radius about the nominal."""
+
+MISFIT = 0.1
+"""Typical residual of the motion cone, in units of the distance; it weighs data against belief."""
+
+LARGEST_CHANGE = 1.0
+
+
+def fitted_cone(pushes: PushSet) -> AnalyticalModel:
+    """The motion cone that fits the pushes best, its friction and support radius learned.
+
+    With few pushes it stays near the nominal values: robust least squares with a belief about the
+    logarithms of both.
+    """
+    unit = np.array([1.0, 1.0, 1.0 / HALF_FACE]) * pushes.distance * MISFIT
+
+    def misfit(logarithms: Array) -> Array:
+        expected, _ = _cone(logarithms, pushes.distance).evaluate(pushes.p_y, pushes.beta)
+        left = (pushes.displacement - expected) / unit
+        return np.concatenate((left.ravel(), logarithms / BELIEF))
+
+    bounds = (-LARGEST_CHANGE, LARGEST_CHANGE)
+    found = least_squares(misfit, np.zeros(2), bounds=bounds, loss='soft_l1')
+    return _cone(found.x, pushes.distance)
+
+
+def _cone(logarithms: Array, distance: float) -> AnalyticalModel:
+    friction, radius = np.exp(logarithms).tolist()
+    slider = Slider(
+        friction_pusher=NOMINAL.friction_pusher * friction,
+        support_radius=NOMINAL.support_radius * radius,
+    )
+    return AnalyticalModel(slider, distance)

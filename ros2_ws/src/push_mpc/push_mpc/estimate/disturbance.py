@@ -1,0 +1,81 @@
+"""What the model gets wrong right now: the twist that the object has beside the model's own.
+
+Both poses are measured, so each tick shows how the object moved under a known motion of the tip.
+What the model does not explain of it, for each metre of the tip's travel, passes a first-order
+filter over the path: a push is quasi-static and knows lengths, not times.
+"""
+
+import math
+
+import numpy as np
+from push_core.geometry.frames import Array, wrap_angle
+from push_core.physics.slider import Slider
+
+from push_mpc.table.surrogate import Table
+
+_CONTACT_GAP = 1e-3  # [m] from which the tip does not push
+_LEAST_TRAVEL = 1e-5  # [m] below which a tick tells nothing but noise
+_JUMP = 2e-3  # [m] of a tick that no model error explains: a hand did it
+_JUMP_ANGLE = 0.03  # [rad]
+_LARGEST = np.array([0.4, 0.4, 12.0])
+
+
+class Disturbance:
+    """Filters the twist that the model leaves unexplained.
+
+    Attributes:
+        rate: in the body frame, for each metre of travel (3,) [1, 1, rad/m].
+    """
+
+    def __init__(self, length: float, slider: Slider) -> None:
+        """Starts from zero.
+
+        Args:
+            length: of the filter [m] of travel; 0 keeps the estimate at zero.
+            slider: geometry of slider and tip.
+        """
+        self.rate = np.zeros(3)
+        self._length = length
+        self._slider = slider
+        self._seen: tuple[Array, Array] | None = None
+
+    def reset(self) -> None:
+        """Forgets everything."""
+        self.rate = np.zeros(3)
+        self._seen = None
+
+    def observe(self, table: Table, object_pose: Array, tip: Array) -> None:
+        """Learns from one more measured pose (3,) and tip (2,)."""
+        before, self._seen = self._seen, (object_pose, tip)
+        if before is None or self._length == 0.0:
+            return
+        travel, unexplained = self._unexplained(table, *before, object_pose, tip)
+        x, y, turn = unexplained
+        if travel < _LEAST_TRAVEL or math.hypot(x, y) > _JUMP or abs(turn) > _JUMP_ANGLE:
+            return
+        share = 1.0 / max(self._length, travel)
+        self.rate = np.clip(
+            self.rate + share * (np.array(unexplained) - travel * self.rate), -_LARGEST, _LARGEST
+        )
+
+    def _unexplained(
+        self, table: Table, pose: Array, tip: Array, next_pose: Array, next_tip: Array
+    ) -> tuple[float, tuple[float, float, float]]:
+        """Travel [m] of the tip into the face, 0 off it, and what the model misses of it."""
+        turn = wrap_angle(float(next_pose[2] - pose[2]))
+        heading = float(pose[2]) + 0.5 * turn
+        cos, sin = math.cos(heading), math.sin(heading)
+        along, aside = _turned(tip - pose[:2], cos, sin)
+        v_n, v_t = _turned(next_tip - tip, cos, sin)
+        if v_n <= 0.0 or self._slider.tip_x - along > _CONTACT_GAP:
+            return 0.0, (0.0, 0.0, 0.0)
+        travel = math.hypot(v_n, v_t)
+        x, y = _turned(next_pose[:2] - pose[:2], cos, sin)
+        dx, dy, dtheta = table.rate(aside, math.atan2(v_n, v_t))
+        return travel, (x - travel * dx, y - travel * dy, turn - travel * dtheta)
+
+
+def _turned(vector: Array, cos: float, sin: float) -> tuple[float, float]:
+    """A world vector (2,) as seen from a heading of this cosine and sine."""
+    x, y = vector.tolist()
+    return cos * x + sin * y, cos * y - sin * x

@@ -1,0 +1,116 @@
+"""The delay predictor: the state at the instant at which the next command will act.
+
+The measured state is rolled forward through the commands already sent, with the model of the
+object and the model of the robot's lag (a Smith predictor for a nonlinear plant).
+"""
+
+import math
+from typing import TypeAlias
+
+import numpy as np
+from push_core.geometry.frames import Array
+from push_core.physics.actuator import Actuator, ActuatorSettings, Pair
+from push_core.physics.slider import Slider
+
+from push_mpc.table.surrogate import Table
+
+Pose: TypeAlias = tuple[float, float, float]
+_STEP = 0.01
+_TIME_TOLERANCE = 1e-6
+_CONTACT_GAP = 5e-4
+
+
+class Predictor:
+    """Keeps a copy of the robot, fed with the same commands, and looks ahead with it."""
+
+    def __init__(self, settings: ActuatorSettings, slider: Slider) -> None:
+        self._slider = slider
+        self._now = Actuator(settings)
+        self._ahead = Actuator(settings)
+        self._time = -math.inf
+        self._horizon = settings.dead_time + settings.lag
+
+    @property
+    def horizon(self) -> float:
+        """Time [s] from a command to its effect: dead time plus lag."""
+        return self._horizon
+
+    def reset(self) -> None:
+        """Forgets all commands: the robot is at rest."""
+        self._now.reset()
+        self._time = -math.inf
+
+    def sent(self, velocity: Array, time: float) -> None:
+        """Takes note of a command (2,) [m/s] that was sent at a time [s]."""
+        self._now.command(velocity, time)
+
+    def predict(
+        self,
+        table: Table,
+        disturbance: Array,
+        object_pose: Array,
+        tip: Array,
+        exposure: float,
+        until: float,
+    ) -> tuple[Array, Array]:
+        """Object pose (3,) and tip position (2,) at a later time.
+
+        Args:
+            table: model of the object.
+            disturbance: twist beside the model's for each metre of travel (3,).
+            object_pose: measured pose (3,) at the exposure.
+            tip: measured tip position (2,) at the exposure.
+            exposure: time of the measurement [s], not before the last one.
+            until: the later time [s].
+        """
+        self._follow(exposure)
+        self._ahead.copy_state(self._now)
+        pose, place = tuple(object_pose.tolist()), tuple(tip.tolist())
+        beside = tuple(disturbance.tolist())
+        time = exposure
+        while until - time > _TIME_TOLERANCE:
+            duration = min(_STEP, until - time)
+            velocity = self._ahead.advance(time, duration)
+            pose = self._pushed(table, beside, pose, place, velocity, duration)
+            place = (place[0] + velocity[0] * duration, place[1] + velocity[1] * duration)
+            time += duration
+        return np.array(pose), np.array(place)
+
+    def _follow(self, exposure: float) -> None:
+        """Lets the copy of the robot live up to the exposure."""
+        if self._time == -math.inf:
+            self._time = exposure
+        while exposure - self._time > _TIME_TOLERANCE:
+            duration = min(_STEP, exposure - self._time)
+            self._now.advance(self._time, duration)
+            self._time += duration
+
+    def _pushed(
+        self,
+        table: Table,
+        beside: tuple[float, float, float],
+        pose: Pose,
+        tip: Pair,
+        velocity: Pair,
+        duration: float,
+    ) -> Pose:
+        """The object's pose after the tip moved on; it rests where the tip does not press."""
+        x, y, theta = pose
+        cos, sin = math.cos(theta), math.sin(theta)
+        v_n = cos * velocity[0] + sin * velocity[1]
+        along = cos * (tip[0] - x) + sin * (tip[1] - y)
+        if v_n <= 0.0 or along < self._slider.tip_x - _CONTACT_GAP:
+            return pose
+        v_t = cos * velocity[1] - sin * velocity[0]
+        p_y = cos * (tip[1] - y) - sin * (tip[0] - x)
+        travel = math.hypot(v_n, v_t) * duration
+        rate = table.rate(p_y, math.atan2(v_n, v_t))
+        dx, dy, turn = (known + more for known, more in zip(rate, beside, strict=True))
+        # the heading of the middle of the step makes a circle of an even push
+        middle = theta + 0.5 * turn * travel
+        cos, sin = math.cos(middle), math.sin(middle)
+        return (
+            x + travel * (cos * dx - sin * dy),
+            y + travel * (sin * dx + cos * dy),
+            theta + travel * turn,
+        )

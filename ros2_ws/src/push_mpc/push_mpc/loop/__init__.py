@@ -1,0 +1,1 @@
+"""The 10 ms loop: one call per tick, without ROS."""

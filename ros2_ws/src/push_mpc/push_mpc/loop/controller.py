@@ -1,0 +1,281 @@
+"""The controller as one object: poses in, tip velocities out, no ROS and no clock of its own."""
+
+import math
+import time as clock
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.geometry.frames import Array, rotation, wrap_angle
+from push_core.physics.safety import limit
+from push_core.physics.slider import Slider
+
+from push_mpc.estimate.disturbance import Disturbance
+from push_mpc.estimate.predictor import Predictor
+from push_mpc.loop.tick import FOLLOWING, Mode, Tick
+from push_mpc.motion.dynamics import TravelMotion
+from push_mpc.plan.consistent_plan import consistent_plan
+from push_mpc.plan.nominal import Plan
+from push_mpc.qp.force_steering import ForceSteering
+from push_mpc.qp.planned_states import PlannedStates
+from push_mpc.qp.steering import Programs, Steering
+from push_mpc.qp.tracking_qp import Problem
+from push_mpc.qp.velocity_steering import VelocitySteering
+from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.recontact import approach, departure, is_apart
+from push_mpc.table.surrogate import Table
+
+__all__ = ['Controller', 'Mode', 'Tick']
+
+_STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
+    'gp': VelocitySteering,
+    'analytical': ForceSteering,
+}
+_STILL = np.zeros(2)
+_FARTHEST = 1e3  # [m], [rad]; a pose beyond it is a fault of whoever measured it
+
+
+@dataclass(frozen=True)
+class Model:
+    """What the controller knows of the object's motion, and the plan that goes with it."""
+
+    table: Table
+    plan: Plan
+    programs: Programs
+    model_id: str
+
+
+class Controller:
+    """Model-predictive tracking of a plan with a tabulated model."""
+
+    def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
+        self.settings = settings
+        self.plan = plan
+        self.mode = Mode.IDLE
+        self.stop_reason = ''
+        self._slider = slider
+        self._predictor = Predictor(settings.actuator, slider)
+        self._disturbance = Disturbance(settings.disturbance_length, slider)
+        self._steering = _STEERINGS[settings.controller](settings, slider)
+        self._stride = horizon_stride(plan, settings)
+        self._steps = self._stride * np.arange(settings.horizon_steps + 1)
+        self._samples = self._steps.copy()
+        self._prepared = ('', -1)
+        self._model: Model | None = None
+        self._sent = _STILL
+        self._seen = 0
+        self._start = 0.0
+
+    @property
+    def model_id(self) -> str:
+        """Name of the model in use, empty without one."""
+        return self._model.model_id if self._model else ''
+
+    @property
+    def horizon_step(self) -> float:
+        """Time between the states of the horizon [s]."""
+        return self._stride * self.plan.period
+
+    @property
+    def problems(self) -> tuple[Problem, ...]:
+        """The programs that the latest tick solved, for who wants to solve them otherwise."""
+        return tuple(solver.problem for solver in self._steering.solvers)
+
+    def prepared(self, table: Table, model_id: str) -> Model:
+        """A model with a plan of its own, linearised along it; may run in another thread."""
+        plan = self.plan
+        if self.settings.consistent_plan:
+            plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
+        programs = self._steering.programs(table, plan, self._stride)
+        return Model(table, plan, programs, model_id)
+
+    def use(self, model: Model) -> None:
+        """Takes a prepared model from the next tick on, and warms the solver up."""
+        first = self._model is None
+        self._model = model
+        if first:
+            self._solve(model.plan.state[0], 0.0)
+
+    def arm(self) -> None:
+        """Makes ready: holds the tip at rest until enough poses came, then tracks the plan."""
+        self.mode = Mode.ARMED
+        self.stop_reason = ''
+        self._seen = 0
+        self._sent = _STILL
+        self._predictor.reset()
+        self._disturbance.reset()
+
+    def stop(self, reason: str) -> None:
+        """Stops and stays stopped until resumed."""
+        self.mode = Mode.STOPPED
+        self.stop_reason = reason
+
+    def hold(self, now: float) -> Tick:
+        """Zero velocity at a time [s] for want of a fresh pose; the next one goes on."""
+        self._remember(_STILL, now)
+        return Tick(Mode.HOLDING, _STILL, now=now, input=_STILL)
+
+    def resume(self) -> None:
+        """Releases a stop."""
+        if self.mode == Mode.STOPPED:
+            self.mode = Mode.IDLE
+            self.stop_reason = ''
+
+    def step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
+        """One tick.
+
+        Args:
+            object_pose: measured pose (3,), world frame.
+            tip: measured tip position (2,) [m], world frame.
+            exposure: when both were measured [s].
+            now: when the command will be sent [s].
+
+        Returns:
+            What to send and what there is to say about it.
+        """
+        tick = self._step(object_pose, tip, exposure, now)
+        tick.exposure, tick.now = exposure, now
+        return tick
+
+    def _step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
+        if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
+            self.stop('a pose is not finite, or beyond all bounds')
+            return Tick(self.mode, _STILL, input=_STILL)
+        if self.mode == Mode.ARMED:
+            self._count_poses(now)
+        tick = self._follow(object_pose, tip, exposure, now)
+        if self.mode not in FOLLOWING:
+            tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
+            tick.planned = None
+        self._remember(tick.velocity, now)
+        return tick
+
+    def _remember(self, velocity: Array, now: float) -> None:
+        """Keeps a command in mind; before and after tracking they are all zero."""
+        self._sent = velocity
+        if self.mode in FOLLOWING:
+            self._predictor.sent(velocity, now)
+
+    def prepare_next(self) -> None:
+        """Does the next tick's work that needs no pose; call it when the command has left."""
+        if self.mode == Mode.TRACKING and self._model is not None:
+            self._prepare(self._model, self._prepared[1] + 1)
+
+    def _count_poses(self, now: float) -> None:
+        self._seen += 1
+        if self._seen > self.settings.good_poses:
+            self.mode = Mode.TRACKING
+            self._start = now + self._predictor.horizon
+
+    def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
+        """Reference, prediction and plan of a tick that may move the tip."""
+        if self.mode not in FOLLOWING or self._model is None:
+            return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
+        reference_time = exposure - self._start
+        if reference_time >= self.plan.duration:
+            self.mode = Mode.DONE
+        self._disturbance.observe(self._model.table, object_pose, tip)
+        pose, tip_then, acts_at = object_pose, tip, exposure
+        if self.settings.delay_compensation:
+            acts_at = now + self._predictor.horizon
+            pose, tip_then = self._predictor.predict(
+                self._model.table, self._disturbance.rate, object_pose, tip, exposure, acts_at
+            )
+        predicted, gap = self._state(pose, tip_then), self._slider.gap(pose, tip_then)
+        self._watch_contact(object_pose, tip, gap)
+        tick = self._move(predicted, gap, acts_at - self._start)
+        tick.reference_time = reference_time
+        tick.state = self._state(object_pose, tip)
+        tick.gap = self._slider.gap(object_pose, tip)
+        self._limit(tick, predicted[2], tip)
+        return tick
+
+    def _watch_contact(self, object_pose: Array, tip: Array, gap: float) -> None:
+        """Changes between tracking and approach; `gap` [m] is that of the predicted instant."""
+        if self.mode not in FOLLOWING:
+            return
+        seen = self._slider.gap(object_pose, tip)
+        left = departure(self._slider, seen, self._slider.contact_offset(object_pose, tip))
+        if left:
+            self.stop(left)
+            return
+        was_apart = self.mode == Mode.RECONTACT
+        # both: a gap that closes by itself, or one that only the prediction sees, needs nothing
+        apart = is_apart(self.settings.recontact, min(seen, gap), was_apart)
+        self.mode = Mode.RECONTACT if apart else Mode.TRACKING
+
+    def _move(self, predicted: Array, gap: float, reference_time: float) -> Tick:
+        """Approaches the face or solves the program, for a state at a time of the reference."""
+        assert self._model is not None
+        if self.mode != Mode.RECONTACT:
+            return self._solve(predicted, reference_time)
+        reference, nominal = self._model.plan.at(reference_time)
+        wanted = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
+        tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=wanted)
+        tick.nominal_input = nominal
+        return tick
+
+    def _state(self, object_pose: Array, tip: Array) -> Array:
+        return np.array([*object_pose, self._slider.contact_offset(object_pose, tip)])
+
+    def _solve(self, state: Array, reference_time: float) -> Tick:
+        """Finds the input for a state (4,) at a time of the reference."""
+        started = clock.perf_counter()
+        model = self._model
+        assert model is not None
+        reference, nominal = model.plan.at(reference_time)
+        deviation = state - reference
+        deviation[2] = wrap_angle(deviation[2])
+        self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
+        # a tip that is already off the face must not make the problem infeasible
+        opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
+        move = self._steering.solve(
+            model.programs,
+            state,
+            deviation,
+            reference_time,
+            opening,
+            self._disturbance.rate,
+            rotation(state[2]).T @ self._sent,
+        )
+        if not move.usable:
+            self.stop(f'the solver found no input (status {move.status})')
+        return Tick(
+            self.mode,
+            _STILL,
+            predicted=state,
+            reference=reference,
+            input=move.velocity,
+            nominal_input=nominal,
+            solve_ms=1e3 * (clock.perf_counter() - started),
+            iterations=move.iterations,
+            solver_status=move.status,
+            planned=PlannedStates(model.plan, self._samples, move.states),
+        )
+
+    def _prepare(self, model: Model, sample: int) -> None:
+        """Readies the program for a horizon that starts at a sample, if it is not ready yet."""
+        if self._prepared == (model.model_id, sample):
+            return
+        # the horizon stays at the plan's last sample
+        np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._samples)
+        self._steering.prepare(model.programs, self._samples[:-1])
+        self._prepared = (model.model_id, sample)
+
+    def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
+        """Turns the input into the command to send, within the safety limits."""
+        turn = rotation(heading)
+        wanted = turn @ tick.input
+        tick.velocity, tick.limited = limit(
+            wanted, self._sent, tip, self.settings.limits, self.settings.period
+        )
+        tick.input = turn.T @ tick.velocity
+
+
+def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
+    """Samples of the plan in one horizon step: so long, or as the length of path asks for."""
+    if settings.horizon_step > 0.0:
+        return max(1, round(settings.horizon_step / plan.period))
+    speed = math.hypot(*np.diff(plan.state[:2, :2], axis=0)[0]) / plan.period
+    step = settings.horizon_length / settings.horizon_steps / speed
+    return max(1, round(step / plan.period))

@@ -1,0 +1,103 @@
+"""Motion of slider and contact under a contact force, and its linearisation.
+
+State [x, y, theta, p_y], input [f_n, f_t, slip] (Hogan and Rodriguez 2016): the twist is that of
+the limit surface, t = grad H(J^T f), scaled as in the paper, where the size of the force tells the
+speed. The slip is that of the tip along the face, the paper's d(p_y)/dt; a round tip that does not
+turn rolls on the turning face besides: d(p_y)/dt = slip + omega * radius.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.geometry.frames import Array
+from push_core.physics import point_contact
+from push_core.physics.limit_surface import LimitSurface
+from push_core.physics.motion_cone import contact_jacobian
+from push_core.physics.slider import Slider
+
+from push_mpc.motion.dynamics import disturbed, to_rates
+
+
+@dataclass(frozen=True)
+class ContactForce:
+    """Answers for pushes of a slider by forces on its face."""
+
+    slider: Slider
+
+    def rates(self, state: Array, inputs: Array) -> Array:
+        """Time derivative (n, 4) of states (n, 4) under inputs (n, 3)."""
+        twist = self._twist(state[:, 3], inputs)
+        return to_rates(twist, inputs[:, 2] + self._rolled(twist), state[:, 2])
+
+    def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
+        """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 3)."""
+        twist = self._twist(state[:, 3], inputs)
+        cos, sin = np.cos(state[:, 2]), np.sin(state[:, 2])
+        by_state, by_input = np.zeros((len(state), 4, 4)), np.zeros((len(state), 4, 3))
+        by_state[:, 0, 2] = -sin * twist[:, 0] - cos * twist[:, 1]
+        by_state[:, 1, 2] = cos * twist[:, 0] - sin * twist[:, 1]
+        turned = np.zeros_like(twist)
+        turned[:, 2] = -self._weights[2] * inputs[:, 0]
+        by_state[:, :, 3] = to_rates(turned, self._rolled(turned), state[:, 2])
+        for column in range(2):
+            moved = self._twist(state[:, 3], np.tile(np.eye(3)[column], (len(state), 1)))
+            by_input[:, :, column] = to_rates(moved, self._rolled(moved), state[:, 2])
+        by_input[:, 3, 2] = 1.0
+        return by_state, by_input
+
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        velocity = self._twist(state[:, 3], inputs)
+        along = velocity[:, 0] - state[:, 3] * velocity[:, 2]
+        aside = velocity[:, 1] + self.slider.p_x * velocity[:, 2] + inputs[:, 2]
+        return disturbed(np.hypot(along, aside), state[:, 2], self.slider.tip_x)
+
+    def tip_velocity(self, p_y: float, force: Array) -> Array:
+        """Velocity (2,) [m/s] in the body frame of the tip that makes an input (3,) happen."""
+        jacobian = contact_jacobian(self.slider.p_x, p_y)
+        velocity = jacobian @ (self._weights * (jacobian.T @ force[:2]))
+        velocity[1] += force[2]
+        return np.asarray(velocity)
+
+    def of_velocity(self, p_y: Array, velocity: Array) -> Array:
+        """The inputs (n, 3) that happen where the tip moves with velocities (n, 2) [m/s]."""
+        each = zip(p_y.tolist(), *velocity.T.tolist(), strict=True)
+        return np.array([self.input_of(*one) for one in each])
+
+    def input_of(self, p_y: float, v_n: float, v_t: float) -> Array:
+        """The input (3,) that happens where the tip moves with one velocity [m/s]."""
+        slider = self.slider
+        matrix = point_contact.mobility(slider.p_x, p_y, slider.support_radius**2)
+        side = point_contact.slip_sign(matrix, slider.friction_pusher, v_n, v_t)
+        if side:
+            friction = side * slider.friction_pusher
+            normal, tangential = point_contact.sliding_force(matrix, friction, v_n)
+        else:
+            normal, tangential = point_contact.sticking_force(matrix, v_n, v_t)
+        _, along, tt = matrix
+        slip = v_t - along * normal - tt * tangential
+        scale = 1.0 / self._weights[0]
+        return np.array([normal * scale, tangential * scale, slip])
+
+    def of_speeds(self, speeds: Array) -> Array:
+        """The inputs (n, 3) whose force moves an object that does not turn at speeds (n, 4).
+
+        Args:
+            speeds: of f_n, of f_t, of the slip to the left and of that to the right [m/s].
+        """
+        forces = speeds[:, :2] / self._weights[0]
+        return np.column_stack([forces, speeds[:, 2] - speeds[:, 3]])
+
+    @property
+    def _weights(self) -> Array:
+        return LimitSurface.of(self.slider).weights
+
+    def _rolled(self, twist: Array) -> Array:
+        """How fast a round tip rolls along the face (n,) [m/s]."""
+        return np.asarray(self.slider.tip_radius * twist[:, 2])
+
+    def _twist(self, p_y: Array, inputs: Array) -> Array:
+        """Body twist (n, 3)."""
+        f_n, f_t = inputs[:, 0], inputs[:, 1]
+        wrench = np.stack([f_n, f_t, self.slider.p_x * f_t - p_y * f_n], axis=-1)
+        return np.asarray(self._weights * wrench)

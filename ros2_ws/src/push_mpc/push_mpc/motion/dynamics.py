@@ -1,0 +1,146 @@
+"""Motion of slider and contact, and its linearisation, for any model of [p_y, beta].
+
+State [x, y, theta, p_y], input [v_n, v_t] in the body frame (Bauza et al. 2018, section 4). The
+contact offset is that of the tip's centre: d(p_y)/dt = v_t - (t_y + omega * tip_x), which is the
+paper's [v_p - J t] for a point and holds for a round tip as well.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from push_core.geometry.frames import Array
+
+
+class TravelModel(Protocol):
+    """Displacement rates of the object per metre of pusher travel."""
+
+    def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
+        """Rates (n, 3) [1, 1, rad/m] in the body frame and Jacobian (n, 3, 2) by [p_y, beta]."""
+
+
+class Motion(Protocol):
+    """How the state [x, y, theta, p_y] moves under some inputs."""
+
+    def rates(self, state: Array, inputs: Array) -> Array:
+        """Time derivative (n, 4) of states (n, 4) under inputs (n, m)."""
+
+    def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
+        """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, m)."""
+
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+
+
+@dataclass(frozen=True)
+class TravelMotion:
+    """Motion under a tip that moves: inputs [v_n, v_t].
+
+    Attributes:
+        model: of the object.
+        tip_x: body-frame x [m] of the tip's centre.
+    """
+
+    model: TravelModel
+    tip_x: float
+
+    def rates(self, state: Array, inputs: Array) -> Array:
+        """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
+        return rates(self.model, state, inputs, self.tip_x)
+
+    def linearised(self, state: Array, inputs: Array) -> tuple[Array, Array]:
+        """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 2)."""
+        return linearised(self.model, state, inputs, self.tip_x)
+
+    def disturbed(self, state: Array, inputs: Array) -> Array:
+        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        return disturbed(np.hypot(*inputs.T), state[:, 2], self.tip_x)
+
+
+def rates(model: TravelModel, state: Array, inputs: Array, tip_x: float) -> Array:
+    """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
+    twist = _twist(model, state, inputs)[0]
+    return to_rates(twist, inputs[:, 1] + _contact(twist, tip_x), state[:, 2])
+
+
+def linearised(
+    model: TravelModel, state: Array, inputs: Array, tip_x: float
+) -> tuple[Array, Array]:
+    """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, 2)."""
+    twist, by_contact, by_input = _twist(model, state, inputs)
+    cos, sin = np.cos(state[:, 2]), np.sin(state[:, 2])
+    by_state = np.zeros((len(state), 4, 4))
+    by_state[:, 0, 2] = -sin * twist[:, 0] - cos * twist[:, 1]
+    by_state[:, 1, 2] = cos * twist[:, 0] - sin * twist[:, 1]
+    by_state[:, :, 3] = to_rates(by_contact, _contact(by_contact, tip_x), state[:, 2])
+    by_inputs = np.stack(
+        [
+            to_rates(moved, _contact(moved, tip_x), state[:, 2])
+            for moved in np.moveaxis(by_input, 2, 0)
+        ],
+        axis=-1,
+    )
+    by_inputs[:, 3, 1] += 1.0
+    return by_state, by_inputs
+
+
+def disturbed(speed: Array, heading: Array, tip_x: float) -> Array:
+    """What a twist beside the model's, a metre of travel, adds to the rates (n, 4, 3).
+
+    Args:
+        speed: of the tip (n,) [m/s].
+        heading: of the object (n,) [rad].
+        tip_x: body-frame x [m] of the tip's centre.
+    """
+    twists = [speed[:, None] * unit for unit in np.eye(3)]
+    columns = [to_rates(twist, _contact(twist, tip_x), heading) for twist in twists]
+    return np.stack(columns, axis=-1)
+
+
+def discretised(
+    by_state: Array, by_inputs: Array, stride: int, period: float
+) -> tuple[Array, Array]:
+    """Transition matrices over `stride` samples of `period` [s], from each sample onwards.
+
+    Products of the first-order transitions of the samples in between; the last sample is held.
+
+    Returns:
+        A (n, 4, 4) and B (n, 4, m), as wide as `by_inputs`, with x_{i+1} = A x_i + B u_i for a
+        constant input.
+    """
+    count = len(by_state)
+    transition = np.tile(np.eye(4), (count, 1, 1))
+    effect = np.zeros_like(by_inputs)
+    for offset in range(stride):
+        index = np.minimum(np.arange(count) + offset, count - 1)
+        step = np.eye(4) + period * by_state[index]
+        effect = step @ effect + period * by_inputs[index]
+        transition = step @ transition
+    return transition, effect
+
+
+def to_rates(twist: Array, contact: Array, heading: Array) -> Array:
+    """Rates (n, 4) of the state for body twists (n, 3), rates of p_y (n,) and headings (n,)."""
+    cos, sin = np.cos(heading), np.sin(heading)
+    x = cos * twist[:, 0] - sin * twist[:, 1]
+    y = sin * twist[:, 0] + cos * twist[:, 1]
+    return np.stack([x, y, twist[:, 2], contact], axis=-1)
+
+
+def _contact(twist: Array, tip_x: float) -> Array:
+    """Rate of p_y (n,) beside a tip at rest."""
+    return np.asarray(-twist[:, 1] - tip_x * twist[:, 2])
+
+
+def _twist(model: TravelModel, state: Array, inputs: Array) -> tuple[Array, Array, Array]:
+    """Body twist (n, 3), its derivative by p_y (n, 3) and by the input (n, 3, 2)."""
+    v_n, v_t = inputs.T
+    speed = np.maximum(np.hypot(v_n, v_t), 1e-9)
+    rate, jacobian = model.evaluate(state[:, 3], np.arctan2(v_n, v_t))
+    speed_by_input = inputs / speed[:, None]
+    beta_by_input = np.stack([v_t, -v_n], axis=-1) / speed[:, None]
+    by_input = (
+        rate[:, :, None] * speed_by_input[:, None, :]
+        + jacobian[:, :, 1, None] * beta_by_input[:, None, :]
+    )
+    return speed[:, None] * rate, speed[:, None] * jacobian[:, :, 0], by_input

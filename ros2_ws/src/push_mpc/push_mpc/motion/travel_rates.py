@@ -1,0 +1,20 @@
+"""From displacements over a push, which a model answers, to the rates of motion equations."""
+
+import numpy as np
+from push_core.geometry.displacement import twist_of
+from push_core.geometry.frames import Array
+
+
+def travel_rates(mean: Array, jacobian: Array, distance: float) -> tuple[Array, Array]:
+    """Twist for each metre of travel.
+
+    Args:
+        mean: displacements (n, 3) [m, m, rad] after a push, in the frame at its start.
+        jacobian: their derivatives (n, 3, 2) by [p_y, beta].
+        distance: travel of the pusher in the push [m].
+
+    Returns:
+        Rates (n, 3) [1, 1, rad/m] and their derivatives (n, 3, 2).
+    """
+    twist, by = twist_of(mean, jacobian)
+    return np.asarray(twist / distance), np.asarray(by / distance)

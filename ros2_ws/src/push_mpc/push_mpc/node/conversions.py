@@ -1,0 +1,99 @@
+"""Messages to arrays and back."""
+
+import math
+from array import array
+from pathlib import Path
+
+import numpy as np
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.geometry.frames import Array
+from push_core.geometry.quaternion import quaternion_to_yaw
+from push_msgs.msg import ControllerState, NominalTrajectory
+from push_msgs.srv import Predict
+from push_node.stamps import to_stamp
+
+from push_mpc.loop.controller import Tick
+from push_mpc.plan.nominal import Plan
+from push_mpc.settings.node_settings import MpcSettings
+from push_mpc.table.tabulation import Answer, Question
+
+
+def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:
+    """Writes a stamp [ns] into a message's header."""
+    message.header.stamp = to_stamp(stamp)
+
+
+def planar_pose(message: PoseStamped) -> Array:
+    """Pose (3,) [x m, y m, theta rad] of a message."""
+    position, turn = message.pose.position, message.pose.orientation
+    return np.array([position.x, position.y, quaternion_to_yaw(turn.z, turn.w)])
+
+
+def position(message: PoseStamped) -> Array:
+    """Position (2,) [m] of a message."""
+    return np.array([message.pose.position.x, message.pose.position.y])
+
+
+def fill_command(message: TwistStamped, velocity: Array) -> None:
+    """Writes a tip velocity (2,) [m/s] into a message."""
+    message.twist.linear.x = float(velocity[0])
+    message.twist.linear.y = float(velocity[1])
+
+
+def fill_state(message: ControllerState, tick: Tick) -> None:
+    """Writes what a tick saw and did into a message; the node adds stamp, number and timing."""
+    unknown = (math.nan,) * 4
+    message.mode = int(tick.mode)
+    message.reference_time = tick.reference_time
+    message.exposure, message.now = tick.exposure, tick.now
+    message.state = unknown if tick.state is None else tick.state
+    message.predicted = unknown if tick.predicted is None else tick.predicted
+    message.reference = unknown if tick.reference is None else tick.reference
+    message.gap = float(tick.gap)
+    message.input = unknown[:2] if tick.input is None else tick.input
+    message.nominal_input = unknown[:2] if tick.nominal_input is None else tick.nominal_input
+    message.solve_ms = tick.solve_ms
+    message.iterations = tick.iterations
+    message.solver_status = tick.solver_status
+    message.limited = tick.limited
+
+
+def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
+    """The plan up to its end, without what it adds for the horizon."""
+    count = math.ceil(plan.duration / plan.period) + 1
+    message = NominalTrajectory(
+        track=Path(settings.track).stem,
+        controller=settings.controller,
+        speed=settings.speed,
+        side=settings.slider.side,
+        tip_radius=settings.slider.tip_radius,
+        laps=settings.laps,
+    )
+    message.header.frame_id = 'world'
+    last_state, last_input = plan.at(plan.duration)
+    state = np.vstack([plan.state[: count - 1], last_state])
+    inputs = np.vstack([plan.input[: count - 1], last_input])
+    message.time = np.append(plan.time[: count - 1], plan.duration).tolist()
+    message.x, message.y, message.theta, message.p_y = (column.tolist() for column in state.T)
+    message.v_n, message.v_t = (column.tolist() for column in inputs.T)
+    return message
+
+
+def request_of(question: Question) -> Predict.Request:
+    """The request that asks a question."""
+    return Predict.Request(
+        p_y=_numbers(question.p_y),
+        beta=_numbers(question.beta),
+        want_variance=question.want_variance,
+    )
+
+
+def answer_of(answer: Predict.Response, distance: float) -> Answer:
+    """A response, per metre of travel."""
+    mean, jacobian = np.reshape(answer.mean, (-1, 3)), np.reshape(answer.jacobian, (-1, 3, 2))
+    return Answer.of(mean, jacobian, np.reshape(answer.variance, (-1, 3)), distance)
+
+
+def _numbers(values: Array) -> 'array[float]':
+    """The one form that goes into a message without a look at each number."""
+    return array('d', np.ascontiguousarray(values, dtype=np.float64).tobytes())

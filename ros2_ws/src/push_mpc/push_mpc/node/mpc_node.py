@@ -1,0 +1,224 @@
+"""The controller node: a pose in, a velocity out, every 10 ms."""
+
+import math
+import sys
+import time
+from collections.abc import Sequence
+
+import numpy as np
+from geometry_msgs.msg import TwistStamped
+from push_msgs.msg import ControllerState, Horizon, NominalTrajectory
+from push_node import qos
+from push_node.diagnostics import Reporter
+from push_node.parameters import declared, override
+from push_node.realtime import settled
+from push_node.spin import run_node
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+from push_mpc.loop.controller import Controller, Mode, Tick
+from push_mpc.node import conversions
+from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.model_client import ModelClient
+from push_mpc.node.pose_pair import PosePair
+from push_mpc.node.recorder_watch import RecorderWatch
+from push_mpc.node.watchdog import Watchdog
+from push_mpc.plan.planning import planned
+from push_mpc.settings.node_settings import mpc_settings
+from push_mpc.table.tabulation import Tabulated
+
+LAST_WORD_TIMEOUT = 1.0  # [s] for the last command to arrive, and for the last state
+REPORT_PERIOD = 1.0  # [s]
+_MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
+
+
+class MpcNode(Node):  # type: ignore[misc]
+    """Topics, services and timers around one `Controller`."""
+
+    def __init__(self) -> None:
+        super().__init__('mpc_node')
+        bundles = override(self, 'profile', 'irb120'), override(self, 'preset', 'tuned')
+        self._settings = declared(self, mpc_settings(*bundles))
+        self._controller = Controller(
+            self._settings, self._settings.slider, planned(self._settings)
+        )
+        lockstep = self._settings.mode == 'lockstep'
+        self._poses = PosePair(self, lockstep, self._tick, self._repeat)
+        self._tick_count = self._guesses = 0
+        self._table: Tabulated | None = None
+        self._scheduling = ''
+        self._command, self._state = TwistStamped(), ControllerState()
+        self._command.header.frame_id = self._state.header.frame_id = 'world'
+        self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
+        self._model = ModelClient(self, self._settings.slider.side, self._controller.prepared)
+        self._recorder = RecorderWatch(self)
+        self._watchdog = Watchdog(self._settings.period)
+        self._reporter = Reporter(self, 'control')
+        self._commands = self.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
+        self._states = self.create_publisher(ControllerState, 'controller_state', qos.STATE)
+        self._horizons = self.create_publisher(Horizon, 'horizon', qos.STATE)
+        self._announce_plan()
+        self._offer_services()
+        self._start_timers()
+
+    def destroy_node(self) -> None:
+        """Leaves the tip at rest."""
+        if self._controller.mode in _MOVING:
+            self._halt('the controller was shut down')
+        # a publisher that goes away takes along what has not arrived
+        for publisher in (self._commands, self._states):
+            publisher.wait_for_all_acked(Duration(seconds=LAST_WORD_TIMEOUT))
+        self._model.close()
+        super().destroy_node()
+
+    def _announce_plan(self) -> None:
+        self._nominal = self.create_publisher(NominalTrajectory, 'nominal_trajectory', qos.LATCHED)
+        plan = conversions.nominal_message(self._controller.plan, self._settings)
+        plan.header.stamp = self.get_clock().now().to_msg()
+        self._nominal.publish(plan)
+
+    def _offer_services(self) -> None:
+        self.create_service(Trigger, 'push_mpc/start', self._on_start)
+        self.create_service(Trigger, 'push_mpc/stop', self._on_stop)
+        self.create_service(Trigger, 'push_mpc/resume', self._on_resume)
+
+    def _start_timers(self) -> None:
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(REPORT_PERIOD, self._report, clock=steady)
+        if self._settings.mode == 'realtime':
+            self.create_timer(self._watchdog.period, self._watch, clock=steady)
+
+    def _tick(self, stamp: int, exposure: float, now: float) -> None:
+        """Answers a new pair of poses, exposed at a stamp [ns]; times are in seconds."""
+        arrived = time.perf_counter()
+        self._take_model()
+        object_pose = conversions.planar_pose(self._poses.object_pose)
+        tip = conversions.position(self._poses.tip)
+        tick = self._controller.step(object_pose, tip, exposure, now)
+        if tick.mode != Mode.IDLE:
+            self._send(tick, stamp)
+        self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._tell_horizon(tick, stamp)
+        self._guesses += self._is_guess(tick)
+        self._controller.prepare_next()
+
+    def _send(self, tick: Tick, stamp: int) -> None:
+        conversions.set_stamp(self._command, stamp)
+        conversions.fill_command(self._command, tick.velocity)
+        self._commands.publish(self._command)
+
+    def _repeat(self) -> None:
+        """The simulator asks again: the answer to its last question got lost."""
+        if self._controller.mode != Mode.IDLE:
+            self._commands.publish(self._command)
+
+    def _tell(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+        conversions.set_stamp(self._state, stamp)
+        conversions.fill_state(self._state, tick)
+        self._state.tick = self._tick_count
+        self._state.tick_ms = tick_ms
+        self._state.stop_reason = self._controller.stop_reason
+        self._state.model_id = self._controller.model_id
+        self._states.publish(self._state)
+        self._tick_count += 1
+
+    def _tell_horizon(self, tick: Tick, stamp: int) -> None:
+        if tick.planned is not None and self._tick_count % HORIZON_EVERY == 0:
+            self._horizons.publish(self._horizon.of(tick.planned, stamp))
+
+    def _take_model(self) -> None:
+        ready = self._model.ready
+        if ready is not None and ready.model_id != self._controller.model_id:
+            self._controller.use(ready)
+            self._table = self._model.table
+
+    def _is_guess(self, tick: Tick) -> bool:
+        """Whether the command rests on what the model was never trained on."""
+        if self._table is None or tick.predicted is None or tick.input is None:
+            return False
+        v_n, v_t = tick.input
+        return bool(tick.velocity.any()) and not self._table.data.covers(
+            tick.predicted[3], math.atan2(v_n, v_t)
+        )
+
+    def _watch(self) -> None:
+        """Holds still on old poses; the poses themselves drive everything else."""
+        slept = self._watchdog.slept(time.monotonic())
+        age = self._poses.age
+        if slept or self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
+            return
+        if age > self._settings.pose_loss:
+            self._halt(f'no pose for {1e3 * age:.0f} ms')
+        else:
+            stamp, now = self._poses.now()
+            self._publish(self._controller.hold(now), stamp)
+
+    def _halt(self, reason: str) -> None:
+        """Stops at once, without waiting for a pose to answer."""
+        self._controller.stop(reason)
+        self._publish(Tick(Mode.STOPPED, np.zeros(2)), self._poses.now()[0])
+        self.get_logger().error(f'stopped: {reason}')
+
+    def _publish(self, tick: Tick, stamp: int) -> None:
+        """Sends and tells of a tick that answers no pose."""
+        self._send(tick, stamp)
+        self._tell(tick, stamp, 0.0)
+
+    def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        if self._controller.mode in _MOVING:
+            # whoever asks again because the answer got lost shall not begin anew
+            answer.success, answer.message = True, 'already started'
+            return answer
+        self._take_model()
+        answer.message = self._obstacle()
+        answer.success = not answer.message
+        if answer.success:
+            self._scheduling = self._scheduling or settled(self._settings.mode)
+            self._controller.arm()
+            self._poses.restart()
+            answer.message = f'armed; {self._scheduling}'
+        return answer
+
+    def _on_stop(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self._halt('stopped on request')
+        answer.success, answer.message = True, 'stopped; push_mpc/resume releases the stop'
+        return answer
+
+    def _on_resume(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        self._controller.resume()
+        answer.success, answer.message = True, 'released; push_mpc/start begins anew'
+        return answer
+
+    def _obstacle(self) -> str:
+        """Why nothing may move yet, empty if it may."""
+        if self._controller.mode == Mode.STOPPED:
+            return f'stopped: {self._controller.stop_reason}; call push_mpc/resume first'
+        if not self._controller.model_id:
+            return f'waiting for the model: {self._model.problem}'
+        if self._settings.require_recorder and not self._recorder.is_recording:
+            return 'waiting for the recorder'
+        if not self._poses.seen:
+            return 'waiting for poses'
+        return ''
+
+    def _report(self) -> None:
+        stopped = self._controller.mode == Mode.STOPPED
+        reason = self._controller.stop_reason if stopped else self._model.problem
+        values = {
+            'model': self._controller.model_id,
+            'table': str(self._table or ''),
+            'ticks': str(self._tick_count),
+            'outside_training_data': str(self._guesses),
+        }
+        self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the controller until SIGINT or SIGTERM."""
+    return run_node(MpcNode, argv)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

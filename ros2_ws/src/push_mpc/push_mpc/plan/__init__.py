@@ -1,0 +1,1 @@
+"""The nominal: state and input along a track."""

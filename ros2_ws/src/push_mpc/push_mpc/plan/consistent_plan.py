@@ -1,0 +1,210 @@
+"""The nominal trajectory that a model itself believes in.
+
+The flat plan is exact for a point that sticks. A round tip rolls, friction has an edge, and a
+learned model differs from both: along the flat plan its motion drifts away. Here states and inputs
+are found that obey the model's own motion equations (at the middle of each interval) and follow
+the path as closely as these allow: Gauss-Newton steps on the whole trajectory at once, each one a
+linear system of narrow band. Nothing of it runs in the loop.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from push_core.geometry.frames import Array
+from scipy.linalg import LinAlgError, solve_banded
+
+from push_mpc.motion.dynamics import Motion
+from push_mpc.plan.nominal import Plan
+
+_STEP = 0.001  # [m] of path in one interval, at least
+_ITERATIONS = 40
+_SHORTEST = 1e-3  # of a Gauss-Newton step
+_DONE = 1e-3  # relative gain of a step that is not worth another one
+_SLACK = 2e-6  # [m], [rad]: what an interval may miss of the motion equations
+_DEFECT_PRICE = 1e3
+_LARGEST_CHANGE = 0.5  # of [v_n, v_t] / speed from the guess
+_DAMPING = 1e-5  # of a change of [v_n, v_t] / speed
+
+NX, NU = 4, 2
+_STAGE = NX + NX + NU
+_STATE, _INPUT = slice(NX, 2 * NX), slice(2 * NX, _STAGE)
+_REACH = _STAGE  # of the farthest entry from the diagonal: from an input to the next one
+# for each metre of path: position [1/m^2], angle between face normal and path [1/rad^2],
+# p_y [1/m^2]; and the change of [v_n, v_t] / speed for each metre [m^2]
+_STATE_WEIGHTS = np.array([1e7, 1e7, 1.0, 300.0])
+_CHANGE_WEIGHT = 0.02
+
+
+@dataclass(frozen=True)
+class _Trajectory:
+    """States (m + 1, 4) and inputs (m, 2), the latter for each unit of the path's speed."""
+
+    state: Array
+    input: Array
+
+    def moved(self, change: '_Trajectory', share: float) -> '_Trajectory':
+        return _Trajectory(self.state + share * change.state, self.input + share * change.input)
+
+
+def consistent_plan(plan: Plan, motion: Motion) -> Plan:
+    """The plan that keeps to a motion's own equations, from the same start along the same path.
+
+    Args:
+        plan: with tip velocities as inputs; the first guess, and the path.
+        motion: under tip velocities.
+
+    Returns:
+        The new plan, or the given one where none was found, or only one that slides a lot.
+    """
+    problem = _Problem(plan, motion)
+    found = problem.solved()
+    if found is None or problem.departs(found):
+        return plan
+    return problem.sampled(found)
+
+
+class _Problem:
+    """What is minimised: least squares about a target, subject to the motion equations."""
+
+    def __init__(self, plan: Plan, motion: Motion) -> None:
+        moved = np.hypot(*np.diff(plan.state[:, :2], axis=0).T)
+        self._speed = float(moved.mean()) / plan.period
+        stride = max(1, round(_STEP / self._speed / plan.period))
+        self._plan, self._motion = plan, motion
+        self._knots = np.arange(0, len(plan.state), stride)
+        self._interval = stride * plan.period
+        self._width = self._interval * self._speed
+        self._guess = _Trajectory(
+            plan.state[self._knots], plan.input[self._knots[:-1]] / self._speed
+        )
+        self._target = _target(self._guess.state)
+        self._weights = _STATE_WEIGHTS * self._width
+        self._smooth = _CHANGE_WEIGHT / self._width
+
+    def solved(self) -> _Trajectory | None:
+        """The trajectory, None where the steps do not lead to one."""
+        now, merit = self._guess, self._merit(self._guess)
+        for _ in range(_ITERATIONS):
+            try:
+                change = self._step(now)
+            except (LinAlgError, ValueError):
+                return None
+            share = self._share(now, change, merit)
+            if share < _SHORTEST:
+                break
+            now, before = now.moved(change, share), merit
+            merit = self._merit(now)
+            if share == 1.0 and merit > (1.0 - _DONE) * before:
+                break
+        return now if np.abs(self._defect(now)).max() < _SLACK else None
+
+    def departs(self, found: _Trajectory) -> bool:
+        """Whether its inputs leave the guess so far that the contact slides a lot.
+
+        There the model is known least: on corners that are tighter than sticking allows, the
+        error with such a plan is half as large again as with the flat one.
+        """
+        return bool(np.abs(found.input - self._guess.input).max() > _LARGEST_CHANGE)
+
+    def _share(self, now: _Trajectory, change: _Trajectory, merit: float) -> float:
+        """How much of a step makes things better."""
+        share = 1.0
+        while share >= _SHORTEST and not self._merit(now.moved(change, share)) < merit:
+            share *= 0.5
+        return share
+
+    def sampled(self, found: _Trajectory) -> Plan:
+        """The trajectory at every sample of the plan."""
+        time, knots = np.arange(len(self._plan.state)), self._knots
+        middles = 0.5 * (knots[1:] + knots[:-1])
+        state = [np.interp(time, knots, column) for column in found.state.T]
+        inputs = [np.interp(time, middles, column) for column in self._speed * found.input.T]
+        return replace(self._plan, state=np.stack(state, axis=-1), input=np.stack(inputs, axis=-1))
+
+    def _merit(self, at: _Trajectory) -> float:
+        error = at.state - self._target
+        smooth = self._smooth * float((np.diff(at.input, axis=0) ** 2).sum())
+        missed = float(np.abs(self._defect(at)).sum())
+        return float((self._weights * error**2).sum() + smooth + _DEFECT_PRICE * missed)
+
+    def _defect(self, at: _Trajectory) -> Array:
+        """What each interval misses of the motion equations (m, 4)."""
+        middle = 0.5 * (at.state[1:] + at.state[:-1])
+        rates = self._motion.rates(middle, self._speed * at.input)
+        return np.asarray(np.diff(at.state, axis=0) - self._interval * rates)
+
+    def _step(self, at: _Trajectory) -> _Trajectory:
+        """The Gauss-Newton step: a quadratic program without inequalities.
+
+        Its unknowns stand stage by stage: four multipliers, the state, the input.
+        """
+        right = np.zeros((len(at.state), _STAGE))
+        right[1:, :NX] = self._defect(at)
+        right[:, _STATE] = self._weights * (at.state - self._target)
+        bend = np.diff(at.input, axis=0)
+        right[1:-1, _INPUT] = self._smooth * bend
+        right[:-2, _INPUT] -= self._smooth * bend
+        band = self._system(at)
+        solution = solve_banded((_REACH, _REACH), band, -right.ravel(), overwrite_ab=True)
+        stages = solution.reshape(right.shape)
+        return _Trajectory(stages[:, _STATE], stages[:-1, _INPUT])
+
+    def _system(self, at: _Trajectory) -> Array:
+        """The optimality conditions as a band (2 reach + 1, unknowns)."""
+        middle = 0.5 * (at.state[1:] + at.state[:-1])
+        by_state, by_input = self._motion.linearised(middle, self._speed * at.input)
+        half = 0.5 * self._interval * by_state
+        band = _Band(len(at.state))
+        band.add(0, 0, _STATE, np.eye(NX)[None])
+        band.add(1, 0, _STATE, -np.eye(NX) - half)
+        band.add(1, 1, _STATE, np.eye(NX) - half)
+        band.add(1, 0, _INPUT, -self._width * by_input)
+        band.diagonal(_STATE)[:] = self._weights
+        own = band.diagonal(_INPUT)
+        own[:-1] = _DAMPING * self._width
+        own[1:-1] += self._smooth
+        own[:-2] += self._smooth
+        own[-1] = 1.0  # there is no input after the last state
+        band.couple_inputs(-self._smooth)
+        return band.values
+
+
+class _Band:
+    """A symmetric matrix with entries near its diagonal only, as LAPACK stores it."""
+
+    def __init__(self, stages: int) -> None:
+        self.values = np.zeros((2 * _REACH + 1, _STAGE * stages))
+        self._stages = self.values.reshape(-1, stages, _STAGE)
+
+    def add(self, row_stage: int, column_stage: int, columns: slice, blocks: Array) -> None:
+        """Sets blocks (m, 4, k): rows of multipliers, and their mirror image.
+
+        The first block has its rows in one stage and its columns in another; those after it
+        follow stage by stage.
+        """
+        count, rows, _ = blocks.shape
+        for row in range(rows):
+            for number, column in enumerate(range(columns.start, columns.stop)):
+                below = _STAGE * (row_stage - column_stage) + row - column
+                entries = blocks[:, row, number]
+                across = slice(column_stage, column_stage + count)
+                along = slice(row_stage, row_stage + count)
+                self._stages[_REACH + below, across, column] = entries
+                self._stages[_REACH - below, along, row] = entries
+
+    def diagonal(self, columns: slice) -> Array:
+        """The diagonal of some columns of each stage, as a view (stages, k)."""
+        return self._stages[_REACH, :, columns]
+
+    def couple_inputs(self, value: float) -> None:
+        """Sets the entries between each input and the same one of the next stage."""
+        self._stages[_REACH + _STAGE, :-2, _INPUT] = value
+        self._stages[_REACH - _STAGE, 1:-1, _INPUT] = value
+
+
+def _target(state: Array) -> Array:
+    """Where the states (m + 1, 4) had best be: on the path, facing along it, p_y = 0."""
+    x, y, heading, _ = state.T
+    along = np.unwrap(np.arctan2(np.gradient(y), np.gradient(x)))
+    along += 2.0 * np.pi * np.round((heading[0] - along[0]) / (2.0 * np.pi))
+    return np.stack([x, y, along, np.zeros(len(x))], axis=-1)

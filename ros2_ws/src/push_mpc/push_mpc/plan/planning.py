@@ -1,0 +1,113 @@
+"""From the node's parameters to the plan that it tracks."""
+
+import math
+
+import numpy as np
+from push_core import tracks
+from push_core.common.errors import InputError
+from push_core.physics.safety import SafetyLimits
+
+from push_mpc.plan.nominal import Plan, TooTightError, flat_plan
+from push_mpc.plan.optimal_plan import Task, optimal_plan
+from push_mpc.settings.node_settings import MpcSettings
+
+_PLACES = 1000
+_MARGIN = 0.5  # [s] beyond horizon and delay
+
+
+def planned(settings: MpcSettings) -> Plan:
+    """The plan along the track that the settings name.
+
+    Raises:
+        InputError: an unknown track, one that cannot be pushed or leaves the workspace, or too
+            high a speed.
+    """
+    fastest = min(settings.limits.speed, settings.actuator.speed_limit)
+    if settings.speed > fastest:
+        raise InputError(
+            f'parameter speed is {settings.speed:g}, must be between 0.001 and {fastest:g} m/s, '
+            'the limit of the pusher'
+        )
+    track = tracks.by_name(settings.track)
+    _check_workspace(track, settings.limits)
+    if settings.laps > 1 and not track.closed:
+        raise InputError(f'track {track.name} is open and has no second lap')
+    plan = _plan(settings, track)
+    _check_pushes(plan, settings)
+    return plan
+
+
+def _plan(settings: MpcSettings, track: tracks.Track) -> Plan:
+    task = _task(settings, track)
+    if settings.planner == 'optimal' or task.headings != (None, None):
+        return optimal_plan(task)
+    try:
+        return flat_plan(
+            track, settings.speed, settings.slider, settings.laps, settings.period, task.overrun
+        )
+    except TooTightError:
+        if settings.planner == 'flat':
+            raise
+        return optimal_plan(task)
+
+
+def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
+    """What the plan asks of the pusher has to be within its limits everywhere."""
+    tracked = plan.time <= plan.duration
+    v_n, v_t = np.abs(plan.input[tracked].T)
+    p_y = np.abs(plan.state[tracked, 3])
+    fastest = min(settings.limits.speed, settings.actuator.speed_limit)
+    checks = (
+        (np.hypot(v_n, v_t), fastest, 'a pusher speed of {:.3f} m/s'),
+        (v_n, settings.normal_speed_limit, 'v_n = {:.3f} m/s'),
+        (v_t, settings.tangential_speed_limit, '|v_t| = {:.3f} m/s'),
+        (p_y, 0.5 * settings.slider.side, '|p_y| = {:.3f} m'),
+    )
+    for values, limit, what in checks:
+        worst = int(np.argmax(values))
+        if values[worst] > limit:
+            raise InputError(
+                f'track {settings.track} at {settings.speed:g} m/s asks for '
+                f'{what.format(values[worst])} near {1e3 * settings.speed * plan.time[worst]:.0f} '
+                f'mm along it; the limit is {limit:g}, so take a lower speed or a wider track'
+            )
+
+
+def _task(settings: MpcSettings, track: tracks.Track) -> Task:
+    delay = settings.actuator.dead_time + settings.actuator.lag
+    return Task(
+        track=track,
+        speed=settings.speed,
+        slider=settings.slider,
+        duration=settings.laps * track.length / settings.speed,
+        overrun=settings.horizon_length / settings.speed + delay + _MARGIN,
+        period=settings.period,
+        speed_limits=(settings.normal_speed_limit, settings.tangential_speed_limit),
+        headings=(
+            _heading('start_heading', settings.start_heading),
+            _heading('end_heading', settings.end_heading),
+        ),
+    )
+
+
+def _heading(name: str, text: str) -> float | None:
+    """A heading [rad] from degrees, None for a free one."""
+    if text == 'free':
+        return None
+    try:
+        degrees = float(text)
+    except ValueError:
+        degrees = math.nan
+    if not math.isfinite(degrees):
+        raise InputError(f'parameter {name} is {text!r}, must be a number of degrees or free')
+    return math.radians(degrees)
+
+
+def _check_workspace(track: tracks.Track, limits: SafetyLimits) -> None:
+    """A file in millimetres would otherwise make a plan of hours."""
+    x, y, _, _ = track.at(np.linspace(0.0, track.length, _PLACES, endpoint=False))
+    if np.abs(x).max() > limits.workspace_x or np.abs(y).max() > limits.workspace_y:
+        raise InputError(
+            f'track {track.name} leaves the workspace of +-{limits.workspace_x:g} m by '
+            f'+-{limits.workspace_y:g} m; its points are in metres'
+        )

@@ -1,0 +1,1 @@
+"""The QP of one tick: linearised stages, cost, constraints, solver."""

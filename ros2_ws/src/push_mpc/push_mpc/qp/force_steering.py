@@ -1,0 +1,124 @@
+"""The analytical controller: the Family of Modes over [f_n, f_t, slip].
+
+Hogan and Rodriguez 2016, section 5. A contact sticks, slides left or slides right, and each mode
+has linear constraints of its own. Three programs are solved in every tick: the contact sticks all
+along, or slides one way in the first stage and sticks from then on. The cheapest one wins.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from push_core.geometry.frames import Array
+from push_core.physics.limit_surface import LimitSurface
+from push_core.physics.motion_cone import ContactMode
+from push_core.physics.slider import Slider
+
+from push_mpc.motion.contact_force import ContactForce
+from push_mpc.motion.dynamics import TravelModel
+from push_mpc.plan.nominal import Plan
+from push_mpc.qp.preview import Preview
+from push_mpc.qp.stages import InputSpace, Stages
+from push_mpc.qp.steering import Move, Programs
+from push_mpc.qp.tracking_qp import Solution, TrackingQP
+from push_mpc.settings.controller_settings import ControllerSettings
+
+FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
+_SOLVED = 1
+_SPEED = 1e-2  # [m/s]; the solver's unit of the slip, and of the speed that a force makes
+
+
+class ForceSteering:
+    """See `Steering`; the programs are those of `FAMILY`.
+
+    Attributes:
+        mode: in the first stage of the latest solution.
+    """
+
+    solvers: tuple[TrackingQP, ...]
+
+    def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
+        self._settings = settings
+        self._motion = ContactForce(slider)
+        self._space = _space(slider)
+        self.mode = ContactMode.STICKING
+        weights = settings.force_weights
+        state_weights = [weights.position_x, weights.position_y, weights.heading, weights.contact]
+        input_weights = [weights.normal, weights.tangential, weights.slip]
+        self.solvers = tuple(
+            TrackingQP(
+                settings.horizon_steps,
+                self._space,
+                np.array(state_weights),
+                np.array(input_weights),
+                weights.change * (_SPEED / self._space.scale) ** 2,
+            )
+            for _ in FAMILY
+        )
+
+    def programs(self, _model: TravelModel, plan: Plan, stride: int) -> Programs:
+        """See `Steering.programs`; the limit surface is the slider's, whatever the model."""
+        forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
+        preview = Preview.of(forces, self._motion, stride)
+        stages = [Stages.of(self._space, preview, self._limits(preview, mode)) for mode in FAMILY]
+        return Programs(forces, tuple(stages))
+
+    def prepare(self, programs: Programs, window: Array) -> None:
+        """See `Steering.prepare`."""
+        sticking = programs.stages[0]
+        for program, first in zip(self.solvers, programs.stages, strict=True):
+            program.prepare(sticking, window, first)
+
+    def solve(
+        self,
+        programs: Programs,
+        state: Array,
+        deviation: Array,
+        time: float,
+        opening: float,
+        disturbance: Array,
+        sent: Array,
+    ) -> Move:
+        """See `Steering.solve`."""
+        nominal = programs.plan.at(time)[1]
+        before = self._motion.input_of(state[3], *sent.tolist()) - nominal
+        solutions = [each.solve(deviation, opening, disturbance, before) for each in self.solvers]
+        self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
+        velocity = self._motion.tip_velocity(state[3], nominal + best.inputs[0])
+        iterations = sum(solution.iterations for solution in solutions)
+        return Move(velocity, best.status, iterations, best.usable, best.states)
+
+    def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
+        """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
+        slider = self._motion.slider
+        nominal = np.column_stack([preview.contact, preview.input @ _limited(slider).T])
+        strongest = self._settings.normal_speed_limit / LimitSurface.of(slider).weights[0]
+        slip = self._settings.tangential_speed_limit
+        # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
+        low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
+        high = np.array([0.5 * slider.side, strongest, 0.0, np.inf, 0.0])
+        if mode == ContactMode.SLIDING_LEFT:
+            low[2], high[4] = 0.0, slip
+        if mode == ContactMode.SLIDING_RIGHT:
+            high[3], low[4] = 0.0, -slip
+        return low - nominal, high - nominal
+
+
+def _limited(slider: Slider) -> Array:
+    """Combinations (4, 3) of the inputs: f_n, both sides of the friction cone, the slip."""
+    friction = slider.friction_pusher
+    return np.array([[1, 0, 0], [-friction, 1, 0], [friction, 1, 0], [0, 0, 1]], dtype=float)
+
+
+def _space(slider: Slider) -> InputSpace:
+    force = _SPEED / LimitSurface.of(slider).weights[0]
+    return InputSpace(
+        np.array([force, force, _SPEED]),
+        _limited(slider),
+        np.array([force, force, force, _SPEED]),
+    )
+
+
+def _rank(candidate: tuple[ContactMode, Solution]) -> tuple[bool, bool, float]:
+    """Sorts solutions: usable ones first, then solved ones, then by cost."""
+    solution = candidate[1]
+    return not solution.usable, solution.status != _SOLVED, solution.cost

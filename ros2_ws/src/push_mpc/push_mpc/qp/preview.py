@@ -1,0 +1,59 @@
+"""The linearised dynamics along the whole plan, computed once for each plan and model."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.geometry.frames import Array
+
+from push_mpc.motion.dynamics import Motion, discretised
+from push_mpc.plan.nominal import Plan
+from push_mpc.qp.steady_shift import steady_shift
+
+
+@dataclass(frozen=True)
+class Preview:
+    """Transitions of one horizon step from every sample of a plan.
+
+    Attributes:
+        transition: A (n, 4, 4).
+        effect: B (n, 4, m).
+        drift: (n, 4, 1 + 3): motion of the model along the plan minus that of the plan, then
+            what a disturbance adds to it: a twist beside the model's for each metre of travel.
+        target: (n, 4 + m, 3): by how much state and input have to differ from the plan under
+            such a disturbance, so that the object stays on the path.
+        input: nominal input at the start of the step (n, m).
+        contact: nominal p_y at the end of the step (n,) [m].
+    """
+
+    transition: Array
+    effect: Array
+    drift: Array
+    target: Array
+    input: Array
+    contact: Array
+
+    @classmethod
+    def of(cls, plan: Plan, motion: Motion, stride: int) -> 'Preview':
+        """Linearises a motion about a plan."""
+        by_state, by_input = motion.linearised(plan.state, plan.input)
+        by_twist = motion.disturbed(plan.state, plan.input)
+        # what the plan misses acts like one more input that is always 1
+        inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None], by_twist], axis=-1)
+        transition, effect = discretised(by_state, inputs, stride, plan.period)
+        index = np.arange(len(plan.state))
+        ahead = np.minimum(index + stride, len(index) - 1)
+        inputs_end = by_input.shape[-1]
+        return cls(
+            transition,
+            effect[:, :, :inputs_end],
+            effect[:, :, inputs_end:],
+            steady_shift(by_state, by_input, by_twist),
+            plan.input,
+            plan.state[ahead, 3],
+        )
+
+
+def _missed(plan: Plan, motion: Motion) -> Array:
+    """How fast the motion at the nominal leaves the plan, (n, 4)."""
+    rates = motion.rates(plan.state, plan.input)
+    return np.asarray(rates - np.gradient(plan.state, plan.period, axis=0))

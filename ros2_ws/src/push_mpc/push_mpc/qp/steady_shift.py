@@ -1,0 +1,43 @@
+"""Where the plan has to give way so that a constant disturbance leaves the object on its path."""
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array
+
+# a turn [rad] weighs like 30 mm of displacement; where the contact goes matters least
+_WORTH = np.array([1.0, 1.0, 0.03, 0.1])
+_EASE = np.array([0.1, 0.005])  # [rad], [m]: changes of theta and p_y of equal worth
+_INPUT_EASE = 0.25  # of the nominal speed
+_DAMPING = 1e-4
+
+
+def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
+    """The smallest change of state and input that keeps the planned rates under a disturbance.
+
+    A contact that sticks or slides cannot reach all four rates: hence damped least squares.
+
+    Args:
+        by_state: derivative of the rates by the state (n, 4, 4).
+        by_input: by the input (n, 4, m).
+        by_twist: by a twist for each metre of travel (n, 4, 3).
+
+    Returns:
+        Change (n, 4 + m, 3) of the state, whose position stays, and of the input.
+
+    Raises:
+        InputError: the model's motion is too far from any object's.
+    """
+    speed = by_twist[:, 2, 2]
+    worth = _WORTH[:, None] / speed[:, None, None]
+    strength = np.linalg.norm(_WORTH[:, None] * by_input, axis=1)
+    input_ease = _INPUT_EASE * speed[:, None] / np.maximum(strength, 1e-9)
+    ease = np.concatenate([np.tile(_EASE, (len(speed), 1)), input_ease], axis=-1)
+    balance = worth * np.concatenate([by_state[:, :, 2:], by_input], axis=-1) * ease[:, None]
+    turned = balance.swapaxes(1, 2)
+    damped = balance @ turned + _DAMPING * np.eye(4)
+    try:
+        solved = np.linalg.solve(damped, worth * by_twist)
+    except np.linalg.LinAlgError as error:
+        raise InputError('by the model the object moves beyond all bounds') from error
+    change = -ease[:, :, None] * (turned @ solved)
+    return np.concatenate([np.zeros_like(change[:, :2]), change], axis=1)

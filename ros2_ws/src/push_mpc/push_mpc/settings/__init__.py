@@ -1,0 +1,1 @@
+"""Settings of the controller and of its node."""

@@ -1,0 +1,99 @@
+"""Settings of the controller."""
+
+from dataclasses import dataclass
+
+from push_core.common.settings import nested, setting, validate
+from push_core.physics.actuator import ActuatorSettings
+from push_core.physics.safety import SafetyLimits
+
+from push_mpc.settings.recontact import RecontactSettings
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Diagonals of Q and R: cost per squared deviation from the nominal, and of the change."""
+
+    position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
+    position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
+    heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
+    contact: float = setting(1000.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
+    normal: float = setting(10.0, 'normal velocity v_n', unit='s^2/m^2', low=1e-6, high=1e9)
+    tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
+    change: float = setting(
+        2.0, 'change of the velocity since the last command', unit='s^2/m^2', low=0.0, high=1e9
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class ForceWeights:
+    """Diagonals of Q and R of the Family of Modes; forces in the scale of the limit surface."""
+
+    position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
+    position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
+    heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
+    contact: float = setting(30.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
+    normal: float = setting(0.1, 'normal force f_n', unit='1/N^2', low=1e-9, high=1e9)
+    tangential: float = setting(0.01, 'tangential force f_t', unit='1/N^2', low=1e-9, high=1e9)
+    slip: float = setting(1.0, 'slip of the tip', unit='s^2/m^2', low=1e-9, high=1e9)
+    change: float = setting(
+        40.0,
+        'change of slip, and of the speeds that the forces make, since the last command',
+        unit='s^2/m^2',
+        low=0.0,
+        high=1e9,
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class ControllerSettings:
+    """Model-predictive control about a timed nominal trajectory."""
+
+    controller: str = setting(
+        'gp',
+        'gp: by the model of the server; analytical: by the limit surface, Family of Modes',
+        choices=('gp', 'analytical'),
+    )
+    period: float = setting(0.01, 'time between two ticks', unit='s', low=0.001, high=0.1)
+    horizon_steps: int = setting(20, 'steps of the horizon', low=2, high=200)
+    horizon_length: float = setting(
+        0.084, 'path that the horizon spans', unit='m', low=0.001, high=1.0
+    )
+    horizon_step: float = setting(
+        0.0,
+        'time of a step of the horizon; 0: horizon_length decides',
+        unit='s',
+        low=0.0,
+        high=1.0,
+    )
+    weights: Weights = nested(Weights())
+    force_weights: ForceWeights = nested(ForceWeights())
+    normal_speed_limit: float = setting(
+        0.25, 'largest v_n; the smallest is 0', unit='m/s', low=1e-3, high=2.0
+    )
+    tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
+    consistent_plan: bool = setting(
+        True, "plan anew with the model's own motion equations when a model arrives"
+    )
+    disturbance_length: float = setting(
+        0.05,
+        'travel over which the model error is estimated; 0 leaves it out',
+        unit='m',
+        low=0.0,
+        high=10.0,
+    )
+    delay_compensation: bool = setting(
+        True, 'roll the measured state forward through the commands already sent'
+    )
+    recontact: RecontactSettings = nested(RecontactSettings())
+    actuator: ActuatorSettings = nested(ActuatorSettings())
+    limits: SafetyLimits = nested(SafetyLimits())
+    good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)
+
+    def __post_init__(self) -> None:
+        validate(self)

@@ -1,0 +1,57 @@
+"""Parameters of the controller node: those of the controller, and what it shall track."""
+
+from dataclasses import dataclass, replace
+
+from push_core.common.settings import nested, setting, validate
+from push_core.physics.actuator import ACTUATORS
+from push_core.physics.slider import Slider
+
+from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.presets import PRESETS, with_preset
+
+
+@dataclass(frozen=True)
+class MpcSettings(ControllerSettings):
+    """Parameters of mpc_node."""
+
+    track: str = setting('eight', 'eight, square, line, circle or a .csv file of x, y [m]')
+    speed: float = setting(
+        0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
+    )
+    laps: int = setting(1, 'rounds of a closed track', low=1, high=1000)
+    planner: str = setting(
+        'auto',
+        'flat: sticking at p_y = 0; optimal: collocation, seconds; auto: flat where it exists',
+        choices=('auto', 'flat', 'optimal'),
+    )
+    start_heading: str = setting(
+        'free', 'of the object at the start in degrees, or free; a number needs the optimal plan'
+    )
+    end_heading: str = setting('free', 'of the object at the end, likewise')
+    profile: str = setting(
+        'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
+    )
+    preset: str = setting(
+        'tuned', 'bundle of defaults; paper: the literal weights, h and N', choices=PRESETS
+    )
+    mode: str = setting(
+        'realtime', 'what the clock is: the wall or /clock', choices=('realtime', 'lockstep')
+    )
+    pose_timeout: float = setting(
+        0.03, 'age of the newest pose from which it holds still', unit='s', low=0.011, high=1.0
+    )
+    pose_loss: float = setting(
+        0.5, 'age of the newest pose at which it stops for good', unit='s', low=0.011, high=10.0
+    )
+    require_recorder: bool = setting(True, 'start only while the recorder records')
+    slider: Slider = nested(Slider())
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
+    """The node's defaults with robot and preset; validation names one that is unknown."""
+    actuator = ACTUATORS.get(profile, MpcSettings().actuator)
+    robot = replace(MpcSettings(), profile=profile, preset=preset, actuator=actuator)
+    return with_preset(robot, preset)

@@ -1,0 +1,131 @@
+"""The model as a table: bicubic in [p_y, beta], instant to evaluate at any training size.
+
+Values and first derivatives at the grid points come from the model itself, the mixed derivative
+from central differences of its Jacobian (bicubic Hermite interpolation).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array
+
+# Hermite basis on [0, 1]: rows are powers of t; columns value at 0, value at 1, slope at 0, at 1
+_HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=float)
+_EXPONENTS = np.array([1.0, 2.0, 3.0])
+# rate, or its change for a metre or a radian; those of a real push stay below a thousand
+_LARGEST = 1e9
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Where the model is asked: an even grid over its domain.
+
+    Attributes:
+        p_y: contact offsets (m,) [m].
+        beta: push directions (k,) [rad].
+    """
+
+    p_y: Array
+    beta: Array
+
+    def points(self) -> tuple[Array, Array]:
+        """All grid points, p_y slow and beta fast, each (m * k,)."""
+        p_y, beta = np.meshgrid(self.p_y, self.beta, indexing='ij')
+        return p_y.ravel(), beta.ravel()
+
+
+class Table:
+    """Bicubic interpolation of displacement rates; inputs outside the grid go to its edge."""
+
+    def __init__(self, grid: Grid, mean: Array, jacobian: Array) -> None:
+        """Builds the table.
+
+        Args:
+            grid: where the model was asked.
+            mean: displacement rates (m * k, 3) at `grid.points()` [1, 1, rad/m].
+            jacobian: their derivatives (m * k, 3, 2) by [p_y, beta].
+
+        Raises:
+            InputError: an answer is not finite, or beyond all bounds.
+        """
+        if not (np.isfinite(mean).all() and np.isfinite(jacobian).all()):
+            raise InputError('the model answered with numbers that are not finite')
+        if max(np.abs(mean).max(), np.abs(jacobian).max()) > _LARGEST:
+            raise InputError('by the model the object moves beyond all bounds')
+        self._grid = grid
+        self._low = np.array([grid.p_y[0], grid.beta[0]])
+        self._step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
+        self._cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
+        self._axes = (self._low.tolist(), self._step.tolist(), self._cells.tolist())
+        self._coefficients = self._fit(mean, jacobian)
+        self._blocks = self._coefficients.reshape(-1, 3, 16)
+
+    def _fit(self, mean: Array, jacobian: Array) -> Array:
+        """Coefficients (m - 1, k - 1, 3, 4, 4) of every cell in its unit coordinates."""
+        shape = (self._grid.p_y.size, self._grid.beta.size, 3)
+        value = mean.reshape(shape)
+        slope_p = jacobian[:, :, 0].reshape(shape) * self._step[0]
+        slope_b = jacobian[:, :, 1].reshape(shape) * self._step[1]
+        mixed = 0.5 * (np.gradient(slope_p, axis=1) + np.gradient(slope_b, axis=0))
+        corners = np.empty((*self._cells, 3, 4, 4))
+        for row, pair in enumerate(((value, slope_b), (slope_p, mixed))):
+            for column, field in enumerate(pair):
+                for i in range(2):
+                    for j in range(2):
+                        part = field[i : shape[0] - 1 + i, j : shape[1] - 1 + j]
+                        corners[..., 2 * row + i, 2 * column + j] = part
+        return np.ascontiguousarray(_HERMITE @ corners @ _HERMITE.T)
+
+    def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
+        """Rates (n, 3) [1, 1, rad/m] and Jacobian (n, 3, 2) at offsets and directions (n,).
+
+        Outside the grid the derivative across its edge is 0.
+        """
+        place = (np.column_stack((p_y, beta)) - self._low) / self._step
+        inside = np.minimum(np.maximum(place, 0.0), self._cells)
+        cell = np.minimum(inside.astype(int), self._cells - 1)
+        powers, slopes = _powers(inside - cell)
+        slopes *= ((place == inside) / self._step)[:, :, None]
+        blocks = self._blocks.take(cell[:, 0] * self._cells[1] + cell[:, 1], axis=0)
+        rates = blocks @ _products(powers, slopes)
+        return rates[..., 0], rates[..., 1:]
+
+    def rate(self, p_y: float, beta: float) -> tuple[float, float, float]:
+        """Displacement rates at one point, for the predictor's loop."""
+        (p_low, b_low), (p_step, b_step), (p_cells, b_cells) = self._axes
+        t, i = _unit(p_y, p_low, p_step, p_cells)
+        u, j = _unit(beta, b_low, b_step, b_cells)
+        by_beta = self._coefficients[i, j] @ (1.0, u, u * u, u * u * u)
+        x, y, theta = (by_beta @ (1.0, t, t * t, t * t * t)).tolist()
+        return x, y, theta
+
+
+def _powers(t: Array) -> tuple[Array, Array]:
+    """Powers 0..3 of t (n, 2) and their derivatives, each (n, 2, 4)."""
+    powers, slopes = np.ones((*t.shape, 4)), np.zeros((*t.shape, 4))
+    powers[..., 1] = t
+    np.multiply(t, t, out=powers[..., 2])
+    np.multiply(powers[..., 2], t, out=powers[..., 3])
+    np.multiply(powers[..., :3], _EXPONENTS, out=slopes[..., 1:])
+    return powers, slopes
+
+
+def _products(powers: Array, slopes: Array) -> Array:
+    """(n, 16, 3) factors of a cell's coefficients in the value and in both derivatives.
+
+    Args:
+        powers: (n, 2, 4) of both inputs.
+        slopes: (n, 2, 4) their derivatives.
+    """
+    products = np.empty((len(powers), 3, 4, 4))
+    pairs = (powers, powers), (slopes, powers), (powers, slopes)
+    for kind, (across, around) in enumerate(pairs):
+        np.multiply(across[:, 0, :, None], around[:, 1, None], out=products[:, kind])
+    return np.swapaxes(products.reshape(-1, 3, 16), 1, 2)
+
+
+def _unit(value: float, low: float, step: float, cells: int) -> tuple[float, int]:
+    place = min(max((value - low) / step, 0.0), cells)
+    cell = min(int(place), cells - 1)
+    return place - cell, cell

@@ -1,0 +1,1 @@
+"""The look of every HTML page: style, figures, and the plotting library they carry."""

@@ -1,0 +1,29 @@
+"""Figures that wait in the page as data until `figures.js` draws them, and what draws them.
+
+A browser takes longer to draw a figure than to read it: so a report opens with its first alone.
+"""
+
+from importlib.resources import files
+
+import plotly.graph_objects as go
+
+LIBRARY = 'plotly/plotly-basic.min.js'
+
+
+def deferred(figure: go.Figure, name: str) -> str:
+    """HTML of a figure of lines, points and bars; `name` becomes the id of its element."""
+    # plotly's JSON holds no '<', so that it cannot end the element that it stands in
+    return (
+        f'<div id="{name}" class="figure" style="height: {figure.layout.height}px"></div>'
+        f'<script type="application/json" id="{name}-figure">{figure.to_json()}</script>'
+    )
+
+
+def drawing_library() -> str:
+    """The part of plotly.js that such figures need."""
+    return files('push_report').joinpath(LIBRARY).read_text(encoding='utf-8')
+
+
+def drawing_script() -> str:
+    """JavaScript that draws each figure of the page when it comes near the window."""
+    return files('push_report').joinpath('figures.js').read_text(encoding='utf-8')

@@ -1,0 +1,1 @@
+"""Plant parameters fitted to measurements, and the parameter file made of them."""

@@ -1,0 +1,1 @@
+"""Short pushes made in a world, as training data."""

@@ -1,0 +1,55 @@
+"""Which pushes are collected: how fast, how long, where on the face and in which direction."""
+
+import math
+from dataclasses import dataclass
+
+from push_core.common.errors import InputError
+from push_core.common.settings import setting, validate
+from push_core.data.push_set import HALF_FACE
+
+from push_sim.collect.short_push import PushTiming
+from push_sim.worlds.quick_world import SUBSTEP
+
+
+@dataclass(frozen=True)
+class PushDesign:
+    """The paper's pushes: at 20 mm/s for 0.2 s, after contact has settled."""
+
+    speed: float = setting(0.02, 'speed of the tip', unit='m/s', low=1e-3, high=0.5)
+    duration: float = setting(0.2, 'time of a push', unit='s', low=0.01, high=10.0)
+    settling: float = setting(0.04, 'time of pushing before it', unit='s', low=0.0, high=10.0)
+    face_part: float = setting(0.95, 'part of the face that is pushed on', low=0.01, high=1.0)
+    steepest: float = setting(
+        math.radians(84.0), 'largest angle to the normal', unit='rad', low=0.0, high=1.55
+    )
+
+    def __post_init__(self) -> None:
+        validate(self)
+        for name in ('duration', 'settling'):
+            time = getattr(self, name)
+            if not math.isclose(time, _steps(time) * SUBSTEP, abs_tol=1e-9):
+                raise InputError(f'parameter {name} is {time:g}, must be a multiple of 0.005 s')
+        if self.distance > 2.0 * HALF_FACE:
+            raise InputError(
+                f'a push of {self.distance:g} m leaves the face: take a shorter duration, so that '
+                f'speed times duration is at most {2.0 * HALF_FACE:g} m'
+            )
+
+    @property
+    def distance(self) -> float:
+        """Travel of the tip in a push [m]."""
+        return self.speed * self.duration
+
+    @property
+    def reach(self) -> float:
+        """The farthest [m] that the tip can slide along the face, settling included."""
+        return self.speed * (self.settling + self.duration)
+
+    @property
+    def timing(self) -> PushTiming:
+        """The same in time steps."""
+        return PushTiming(self.speed, _steps(self.settling), _steps(self.duration))
+
+
+def _steps(time: float) -> int:
+    return round(time / SUBSTEP)

@@ -1,0 +1,80 @@
+"""The command that holds the simulator against measurements: `ros2 run push_sim validate`."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from push_core.common.atomic_file import check_place
+from push_core.common.command_line import Parser, run_command
+from push_core.common.strict_json import json_text
+from push_core.common.workers import usable_cores, workers
+from push_core.physics.slider import Slider
+
+from push_sim.commands.command_checks import check_jobs
+from push_sim.measured.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
+from push_sim.settings.plant_settings import PROFILES, profile
+from push_sim.validation.as_json import as_json
+from push_sim.validation.as_table import validation_table
+from push_sim.validation.comparison import validation
+
+EPILOG = f"""what is read from DIR, as far as it is there:
+  {SHORT_FILES:28}short pushes; the simulator repeats each from its p_y and beta
+  {LONG_FILES:28}straight pushes of 50 mm; each is repeated by its tip
+  {RUN_FILES:28}runs of a real cell: the commanded tip through the actuator model,
+  {'':28}the sensed tip against the object over windows of 0.5 s
+
+The ellipsoid beside it is the limit surface that fits the short pushes best. A long push counts
+as on the face where the tip, at its measured end, is still within half a side, and 1 mm, of the
+middle of the face on which it began.
+
+examples:
+  ros2 run push_sim validate --data ../shared/data --html validation.html
+  ros2 run push_sim validate --data ../shared/data --json > validation.json
+"""
+
+
+def parser() -> Parser:
+    """Describes the command line."""
+    described = Parser('Compares the simulator with measured pushes and robot runs.', EPILOG)
+    described.add_argument('--data', type=Path, required=True, metavar='DIR', help='measurements')
+    described.add_argument('--profile', choices=PROFILES, default='irb120', help='of the plant')
+    described.add_argument('--json', action='store_true', help='print one JSON object instead')
+    described.add_argument(
+        '--html', type=Path, metavar='FILE', help='also write a page of pictures'
+    )
+    described.add_argument(
+        '--jobs', type=int, default=usable_cores(), metavar='N', help='processes (%(default)s)'
+    )
+    return described
+
+
+def work(arguments: argparse.Namespace) -> None:
+    """Replays and reports.
+
+    Raises:
+        InputError: the folder holds nothing, a file is faulty, or a number is out of range.
+    """
+    check_jobs(arguments.jobs)
+    if arguments.html:
+        check_place(arguments.html)
+    data = read_measured_data(arguments.data)
+    with workers(arguments.jobs) as run_in:
+        found = validation(data, profile(arguments.profile), Slider(), run_in)
+    figures = {'profile': arguments.profile, **as_json(found)}
+    table = validation_table(figures, arguments.profile)
+    if arguments.html:
+        # plotly takes a second to import: only who asks for a page waits for it
+        from push_sim.validation.page import write_validation_page  # noqa: PLC0415
+
+        write_validation_page(arguments.html, found, arguments.profile, table)
+    sys.stdout.write(json_text(figures) if arguments.json else table)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the command."""
+    return run_command(parser(), work, argv)
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())

@@ -1,0 +1,1 @@
+"""Measured pushes and robot runs, and their repetition in a world."""

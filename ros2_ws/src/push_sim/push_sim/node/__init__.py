@@ -1,0 +1,1 @@
+"""The plant as a ROS node, in real time or in lockstep."""

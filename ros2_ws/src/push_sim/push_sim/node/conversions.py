@@ -1,0 +1,42 @@
+"""Messages to arrays and back."""
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.geometry.frames import Array
+from push_core.geometry.quaternion import yaw_to_quaternion
+from push_msgs.msg import Perturbation as PerturbationMessage
+
+from push_sim.plant.perturbation import Disturbance
+
+FRAME = 'world'
+
+
+def pose_message(pose: Array, stamp: Time) -> PoseStamped:
+    """A pose (3,) x [m], y [m], theta [rad] in the world frame."""
+    message = PoseStamped()
+    message.header.frame_id = FRAME
+    message.header.stamp = stamp
+    message.pose.position.x, message.pose.position.y = float(pose[0]), float(pose[1])
+    orientation = message.pose.orientation
+    orientation.x, orientation.y, orientation.z, orientation.w = yaw_to_quaternion(float(pose[2]))
+    return message
+
+
+def position_message(position: Array, stamp: Time) -> PoseStamped:
+    """A position (2,) [m] in the world frame."""
+    return pose_message(np.array([*position, 0.0]), stamp)
+
+
+def commanded_velocity(message: TwistStamped) -> Array:
+    """Velocity (2,) [m/s] of the tip in the world frame."""
+    return np.array([message.twist.linear.x, message.twist.linear.y])
+
+
+def perturbation_message(disturbance: Disturbance, stamp: Time) -> PerturbationMessage:
+    """What happened, for the record."""
+    message = PerturbationMessage(kind=int(disturbance.kind), magnitude=disturbance.magnitude)
+    message.header.frame_id = FRAME
+    message.header.stamp = stamp
+    message.direction.x, message.direction.y = map(float, disturbance.direction)
+    return message

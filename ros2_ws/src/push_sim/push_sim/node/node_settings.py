@@ -1,0 +1,55 @@
+"""Parameters of the simulator node: those of the plant, and how and where it starts."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from push_core.common.settings import nested, setting, validate
+from push_core.geometry.frames import Array
+from push_core.physics.slider import Slider
+
+from push_sim.settings.plant_settings import PROFILES, SimSettings, profile
+
+
+@dataclass(frozen=True)
+class StartSettings:
+    """Where slider and tip are when the node starts; `push_sim/reset` puts them elsewhere."""
+
+    x: float = setting(0.0, 'x of the slider', unit='m', low=-10.0, high=10.0)
+    y: float = setting(0.0, 'y of the slider', unit='m', low=-10.0, high=10.0)
+    theta: float = setting(0.0, 'heading of the slider', unit='rad', low=-7.0, high=7.0)
+    p_y: float = setting(0.0, 'contact offset of the tip', unit='m', low=-0.05, high=0.05)
+    gap: float = setting(0.0, 'distance of the tip from the face', unit='m', low=0.0, high=1.0)
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+    @property
+    def object_pose(self) -> Array:
+        """Pose (3,) of the slider: x [m], y [m], theta [rad]."""
+        return np.array([self.x, self.y, self.theta])
+
+    def tip_position(self, slider: Slider) -> Array:
+        """Centre (2,) of the tip [m] beside a slider."""
+        return slider.tip_position(self.object_pose, self.p_y, self.gap)
+
+
+@dataclass(frozen=True)
+class NodeSettings(SimSettings):
+    """The plant's settings and the node's own; of the slider only sides, mass and tip count."""
+
+    profile: str = setting('irb120', 'bundle of defaults', choices=tuple(PROFILES))
+    mode: str = setting('realtime', 'who sets the pace', choices=('realtime', 'lockstep'))
+    seed: int = setting(0, 'of all that is drawn at random', low=0, high=2**62)
+    start: StartSettings = nested(StartSettings())
+    slider: Slider = nested(Slider())
+
+
+def node_settings(profile_name: str) -> NodeSettings:
+    """The node's defaults with those of a profile.
+
+    Raises:
+        InputError: there is no such profile.
+    """
+    sim = profile(profile_name)
+    values = {field.name: getattr(sim, field.name) for field in fields(sim)}
+    return NodeSettings(profile=profile_name, **values)

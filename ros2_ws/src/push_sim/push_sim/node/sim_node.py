@@ -1,0 +1,146 @@
+"""The simulator as a node: parameters, topics, services; the plant does the work."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.common.errors import InputError, PushError
+from push_msgs.msg import Perturbation as PerturbationMessage
+from push_msgs.srv import Perturb, Reset
+from push_node.diagnostics import Reporter
+from push_node.parameters import declared, override
+from push_node.qos import COMMAND, EVENT, POSE, SCENE, TF
+from push_node.realtime import settled
+from push_node.spin import run_node
+from push_node.stamps import to_nanoseconds, to_stamp
+from rclpy.node import Node
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+
+from push_sim.node.conversions import (
+    commanded_velocity,
+    perturbation_message,
+    pose_message,
+    position_message,
+)
+from push_sim.node.lockstep_pace import LockstepPace
+from push_sim.node.node_settings import NodeSettings, node_settings
+from push_sim.node.pace import Pace
+from push_sim.node.realtime_pace import RealtimePace
+from push_sim.node.scene import scene
+from push_sim.node.transforms import Transforms
+from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.plant import Observation, Plant
+
+_SCENE_PERIOD = 0.05
+_HEALTH_PERIOD = 1.0
+_PACES: dict[str, Callable[[Node, Plant, Callable[[Observation], None]], Pace]] = {
+    'realtime': RealtimePace,
+    'lockstep': LockstepPace,
+}
+
+
+class SimNode(Node):  # type: ignore[misc]
+    """Publishes what the sensors see and obeys velocity commands."""
+
+    def __init__(self) -> None:
+        super().__init__('sim_node')
+        self._settings: NodeSettings = declared(
+            self, node_settings(override(self, 'profile', 'irb120'))
+        )
+        self._slider = self._settings.slider
+        self._plant = Plant(self._settings, self._slider)
+        self._make_publishers()
+        self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)
+        self._pace.restart(self._start())
+        self.create_subscription(TwistStamped, 'pusher_velocity_cmd', self._on_command, COMMAND)
+        self.create_service(Reset, 'push_sim/reset', self._on_reset)
+        self.create_service(Perturb, 'push_sim/perturb', self._on_perturb)
+        self.create_timer(_SCENE_PERIOD, self._publish_scene)
+        self.create_timer(_HEALTH_PERIOD, self._report)
+        profile, mode = self._settings.profile, self._settings.mode
+        self.get_logger().info(f'{profile}, {mode}; {settled(mode)}')
+
+    def destroy_node(self) -> None:
+        """Frees the physics server as well."""
+        super().destroy_node()
+        self._plant.close()
+
+    def _make_publishers(self) -> None:
+        self._object = self.create_publisher(PoseStamped, 'object_pose', POSE)
+        self._pusher = self.create_publisher(PoseStamped, 'pusher_pose', POSE)
+        self._perturbation = self.create_publisher(PerturbationMessage, 'perturbation', EVENT)
+        self._scene = self.create_publisher(MarkerArray, 'scene', SCENE)
+        self._tf = self.create_publisher(TFMessage, '/tf', TF)
+        self._frames = Transforms(self.get_namespace())
+        self._reporter = Reporter(self, 'plant')
+
+    def _start(self) -> Observation:
+        start = self._settings.start
+        tip = start.tip_position(self._slider)
+        return self._plant.reset(start.object_pose, tip, self._settings.seed)
+
+    def _publish(self, observation: Observation) -> None:
+        stamp = to_stamp(self._pace.stamp(observation.time))
+        # the tip first: who waits for the object's pose has both then
+        self._pusher.publish(position_message(observation.tip_position, stamp))
+        self._object.publish(pose_message(observation.object_pose, stamp))
+        self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))
+        for disturbance in self._plant.take_disturbances():
+            happened = to_stamp(self._pace.stamp(disturbance.time))
+            self._perturbation.publish(perturbation_message(disturbance, happened))
+
+    def _on_command(self, message: TwistStamped) -> None:
+        stamp = to_nanoseconds(message.header.stamp)
+        self._pace.command(commanded_velocity(message), stamp)
+
+    def _on_reset(self, request: Reset.Request, response: Reset.Response) -> Reset.Response:
+        try:
+            pose, tip = np.array(request.object_pose), np.array(request.tip_position)
+            self._pace.restart(self._plant.reset(pose, tip, request.seed))
+        except PushError as error:
+            response.message = str(error)
+            return response
+        response.success, response.message = True, 'at rest'
+        return response
+
+    def _on_perturb(
+        self, request: Perturb.Request, response: Perturb.Response
+    ) -> Perturb.Response:
+        try:
+            self._plant.perturb(_perturbation(request))
+        except PushError as error:
+            response.message = str(error)
+            return response
+        response.success, response.message = True, 'disturbed'
+        return response
+
+    def _publish_scene(self) -> None:
+        plant, stamp = self._plant, to_stamp(self._pace.stamp(self._plant.time))
+        self._scene.publish(scene(self._slider, plant.object_pose, plant.tip_position, stamp))
+
+    def _report(self) -> None:
+        values = {
+            'profile': self._settings.profile,
+            'mode': self._settings.mode,
+            'plant_time_s': f'{self._plant.time:.2f}',
+            'late_frames': str(self._pace.late_frames),
+            'contact': str(self._plant.contact).lower(),
+            'watchdog': 'holds' if self._plant.braking else 'fed',
+        }
+        self._reporter.report(True, 'running', values)
+
+
+def _perturbation(request: Perturb.Request) -> Perturbation:
+    if request.kind not in list(Kind):
+        raise InputError(f'kind is {request.kind}, must be one of {[int(kind) for kind in Kind]}')
+    return Perturbation(Kind(request.kind), request.magnitude, request.angle)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Runs the node."""
+    return run_node(SimNode, argv)
+
+
+if __name__ == '__main__':
+    raise SystemExit(main())

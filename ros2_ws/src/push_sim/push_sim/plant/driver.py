@@ -1,0 +1,69 @@
+"""The robot's own driver: passes commands on, and brakes when they stop coming."""
+
+import math
+from collections import deque
+
+import numpy as np
+from push_core.geometry.frames import Array
+from push_core.physics.actuator import Actuator, ActuatorSettings, Pair
+
+
+class Driver:
+    """Feeds the actuator; its watchdog runs on the plant's clock, not on the commands' stamps."""
+
+    def __init__(self, settings: ActuatorSettings, timeout: float, loss: float = 0.0) -> None:
+        """At rest.
+
+        Args:
+            settings: of the robot.
+            timeout: it brakes after this long without a command [s].
+            loss: share of commands that get lost on their way.
+        """
+        self._actuator = Actuator(settings)
+        self._timeout = timeout
+        self._loss = loss
+        self.reset(np.random.default_rng())
+
+    def reset(self, random: np.random.Generator) -> None:
+        """At rest, no command under way or known; losses are drawn from this source."""
+        self._random = random
+        self._actuator.reset()
+        self._inbox: deque[tuple[float, Array]] = deque()
+        self._last_arrival = -math.inf
+        self._braking = True
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity (2,) of the tip [m/s]."""
+        return self._actuator.velocity
+
+    @property
+    def braking(self) -> bool:
+        """Whether the watchdog holds the tip, or brings it to rest."""
+        return self._braking
+
+    def command(self, velocity: Array, arrival: float) -> None:
+        """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one.
+
+        One that is not finite is no command: the watchdog then stops the tip.
+        """
+        if not np.isfinite(velocity).all() or self._is_lost():
+            return
+        self._inbox.append((arrival, np.array(velocity, dtype=float)))
+
+    def _is_lost(self) -> bool:
+        return self._loss > 0.0 and self._random.random() < self._loss
+
+    def advance(self, now: float, duration: float) -> Pair:
+        """Moves on from `now` by `duration` [s]; returns the tip's mean velocity."""
+        self._open_inbox(now)
+        self._braking = now - self._last_arrival > self._timeout
+        if self._braking:
+            # a stop does not wait in the queue and does not pass the lag
+            return self._actuator.brake(duration)
+        return self._actuator.advance(now, duration)
+
+    def _open_inbox(self, now: float) -> None:
+        while self._inbox and self._inbox[0][0] <= now:
+            self._last_arrival, velocity = self._inbox.popleft()
+            self._actuator.command(velocity, self._last_arrival)

@@ -1,0 +1,222 @@
+"""The plant: world, robot, cameras and disturbances, one period at a time."""
+
+import copy
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array
+from push_core.physics.slider import Slider
+
+from push_sim.plant.driver import Driver
+from push_sim.plant.perturbation import Disturbance, Perturbation, Schedule, disturb
+from push_sim.plant.sensor import Observation, Sensor
+from push_sim.settings.plant_settings import PERIOD, SimSettings
+from push_sim.worlds.engines import make_world
+
+__all__ = ['Observation', 'Plant', 'PlantSnapshot']
+
+_NANOSECOND = 1e-9
+_NOT_COPIED = ('_settings', '_world')
+
+
+@dataclass(frozen=True)
+class PlantSnapshot:
+    """The whole state of a `Plant`; no run changes it, and it can be pickled.
+
+    Attributes:
+        settings: of the plant and of its slider.
+        world: what the world told of itself.
+        parts: all else, copied at once, so that what two of them share stays shared.
+    """
+
+    settings: tuple[SimSettings, Slider]
+    world: object
+    parts: dict[str, Any]
+
+
+class Plant:
+    """What stands behind the topics; knows nothing of ROS.
+
+    Plant time is counted in whole nanoseconds and begins at `START`: zero means 'not set' in
+    ROS, and the first exposure lies one latency before the first period.
+    """
+
+    period = PERIOD
+    START = 1.0
+
+    def __init__(self, settings: SimSettings, slider: Slider) -> None:
+        self._settings = settings, slider
+        self._world = make_world(settings.world, slider)
+        self._driver = Driver(settings.actuator, settings.command_timeout, settings.command_loss)
+        self._sensor = Sensor(settings.sensor)
+        self._schedule = Schedule(settings.perturbation)
+        self._substeps = settings.world.substeps
+        self._latency = _whole_substeps(settings)
+        self._disturbances: list[Disturbance] = []
+        self._ticks = 0
+
+    def reset(self, object_pose: Array, tip_position: Array, seed: int) -> Observation:
+        """Puts the plant into an exact state, whatever happened before.
+
+        Args:
+            object_pose: (3,) x [m], y [m], theta [rad].
+            tip_position: (2,) centre of the tip [m].
+            seed: of all that is drawn at random, not negative.
+
+        Returns:
+            The first observation; the object has been resting so far.
+
+        Raises:
+            InputError: a value is not finite, or the seed is negative.
+        """
+        _check_start(object_pose, tip_position, seed)
+        self._ticks = 0
+        self._world.reset(object_pose, tip_position, seed)
+        random = np.random.default_rng(seed)
+        self._driver.reset(random.spawn(1)[0])
+        self._schedule.reset()
+        self._sensor.reset(random)
+        self._disturbances.clear()
+        self._disturb_if_due()
+        self._pictures = 0
+        self._aim_next_picture()
+        self._expose_until(0)
+        return self._sensor.show_first()
+
+    def command(self, velocity: Array, arrival: float) -> None:
+        """Hands a tip velocity (2,) [m/s] to the driver at a plant time [s], now or later."""
+        if any(velocity):
+            self._schedule.motion_commanded(arrival)
+        self._driver.command(velocity, arrival)
+
+    def step(self) -> Observation | None:
+        """Advances one period; returns what the sensor shows then, None where that got lost."""
+        self._disturb_if_due()
+        start, duration, done = self.time, self._substep, 0
+        while done < self._substeps:
+            until = min(self._substeps, self._exposure - self._ticks * self._substeps)
+            times = (start + substep * duration for substep in range(done, until))
+            self._world.follow([self._driver.advance(time, duration) for time in times])
+            self._expose_until(until)
+            done = until
+        self._ticks += 1
+        return self._sensor.show()
+
+    def step_until_seen(self) -> Observation:
+        """Advances to the next picture; periods whose picture gets lost pass unanswered."""
+        while True:
+            observation = self.step()
+            if observation is not None:
+                return observation
+
+    def perturb(self, perturbation: Perturbation) -> Disturbance:
+        """Disturbs the object now."""
+        disturbance = disturb(self._world, perturbation, self.time)
+        self._disturbances.append(disturbance)
+        return disturbance
+
+    def take_disturbances(self) -> list[Disturbance]:
+        """The disturbances since the last call, in their order."""
+        taken, self._disturbances = self._disturbances, []
+        return taken
+
+    def snapshot(self) -> PlantSnapshot:
+        """The whole state, for `restore`; taking it changes nothing."""
+        parts = {name: part for name, part in vars(self).items() if name not in _NOT_COPIED}
+        return PlantSnapshot(self._settings, self._world.snapshot(), copy.deepcopy(parts))
+
+    def restore(self, snapshot: PlantSnapshot) -> None:
+        """Goes back to a snapshot of this plant, or of another one of the same settings.
+
+        What follows is what followed the snapshot, to the last bit, whatever happened since.
+
+        Raises:
+            InputError: the plant of the snapshot had other settings.
+        """
+        if snapshot.settings != self._settings:
+            raise InputError('a snapshot can only be restored in a plant of the same settings')
+        self._world.restore(snapshot.world)
+        vars(self).update(copy.deepcopy(snapshot.parts))
+
+    def close(self) -> None:
+        """Frees what the world holds."""
+        self._world.close()
+
+    @property
+    def time(self) -> float:
+        """Plant time [s]."""
+        return self._time(0)
+
+    @property
+    def object_pose(self) -> Array:
+        """True pose (3,) of the object: x [m], y [m], theta [rad]."""
+        return self._world.object_pose
+
+    @property
+    def tip_position(self) -> Array:
+        """True centre (2,) of the tip [m]."""
+        return self._world.tip_position
+
+    @property
+    def tip_velocity(self) -> Array:
+        """True velocity (2,) of the tip [m/s]."""
+        return self._driver.velocity
+
+    @property
+    def contact(self) -> bool:
+        """Whether the tip presses on the object."""
+        return self._world.contact
+
+    @property
+    def braking(self) -> bool:
+        """Whether the driver waits for commands, braking or at rest."""
+        return self._driver.braking
+
+    @property
+    def _substep(self) -> float:
+        return PERIOD / self._substeps
+
+    def _time(self, substep: int) -> float:
+        """Plant time [s] at a substep of the current period."""
+        elapsed = (self._ticks * self._substeps + substep) * self._substep
+        return round((self.START + elapsed) / _NANOSECOND) * _NANOSECOND
+
+    def _aim_next_picture(self) -> None:
+        due = self._pictures * self._substeps
+        self._exposure = due - self._latency - self._sensor.extra_delay(self._substep)
+
+    def _expose_until(self, substep: int) -> None:
+        """Takes the pictures that are due up to a substep of the current period."""
+        period_start = self._ticks * self._substeps
+        while self._exposure <= period_start + substep:
+            time = self._time(self._exposure - period_start)
+            self._sensor.expose(time, self.object_pose, self.tip_position)
+            self._pictures += 1
+            self._aim_next_picture()
+
+    def _disturb_if_due(self) -> None:
+        due = self._schedule.due(self.time)
+        if due is not None:
+            self.perturb(due)
+
+
+def _whole_substeps(settings: SimSettings) -> int:
+    substeps = settings.sensor.latency / settings.world.substep
+    if not math.isclose(substeps, round(substeps), abs_tol=1e-6):
+        raise InputError(
+            f'parameter sensor.latency is {settings.sensor.latency:g}, '
+            f'must be a multiple of world.substep = {settings.world.substep:g} s'
+        )
+    return round(substeps)
+
+
+def _check_start(object_pose: Array, tip_position: Array, seed: int) -> None:
+    if np.shape(object_pose) != (3,) or np.shape(tip_position) != (2,):
+        raise InputError('a reset takes an object pose [x, y, theta] and a tip position [x, y]')
+    if not np.isfinite([*object_pose, *tip_position]).all():
+        raise InputError('a reset takes finite numbers')
+    if seed < 0:
+        raise InputError(f'parameter seed is {seed}, must not be negative')

@@ -1,0 +1,1 @@
+"""Settings of the plant, and the profiles that bundle them."""

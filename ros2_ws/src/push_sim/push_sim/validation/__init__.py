@@ -1,0 +1,1 @@
+"""The plant beside measurements: errors, tables, pages."""

@@ -1,0 +1,1 @@
+"""The physics engines behind one interface."""

@@ -1,0 +1,88 @@
+"""The moving bodies of the PyBullet world: slider and tip.
+
+- The slider is a box on four feet that stand on a circle, not on its corners: that gives the
+  friction moment of the measured limit surface.
+- The feet are springs. Four rigid feet share the weight as the solver's order of rows pleases,
+  and the slider turns to one side; springs share it as the load does.
+- The tip is a sphere, one contact point at half height, so heavy that the slider cannot slow it.
+- PyBullet multiplies the friction coefficients of two bodies: the slider has 1, table and tip
+  have theirs.
+- Multibody coordinates with cone friction: maximal coordinates are faster, but hold the friction
+  of a sticking contact to one direction.
+"""
+
+from collections.abc import Sequence
+
+from push_core.physics.actuator import Pair
+from push_core.physics.limit_surface import GRAVITY
+from push_core.physics.slider import Slider
+
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.worlds.bullet.bullet import pybullet
+
+HALF_HEIGHT = 0.0065
+"""Height [m] of the slider's and of the tip's centre."""
+
+_FEET = 4
+_FOOT_RADIUS = 0.001
+_TIP_MASS = 1e6
+
+
+def make_object(client: int, slider: Slider, feet: Sequence[Pair]) -> int:
+    """The slider, on feet at the given places."""
+    shape = _object_shape(client, slider.side, feet)
+    body = make_body(client, slider.mass, shape, 1.0)
+    yaw_inertia = slider.mass * slider.side**2 / 6.0
+    pybullet.changeDynamics(
+        body,
+        -1,
+        localInertiaDiagonal=(0.5 * yaw_inertia, 0.5 * yaw_inertia, yaw_inertia),
+        physicsClientId=client,
+    )
+    return body
+
+
+def make_tip(client: int, settings: WorldSettings, slider: Slider) -> int:
+    """The round tip."""
+    sphere = pybullet.createCollisionShape(
+        pybullet.GEOM_SPHERE, radius=slider.tip_radius, physicsClientId=client
+    )
+    return make_body(client, _TIP_MASS, sphere, settings.friction_pusher)
+
+
+def resting_height(settings: WorldSettings, slider: Slider) -> float:
+    """Height [m] at which the springs of the feet carry the slider."""
+    return HALF_HEIGHT - slider.mass * GRAVITY / (_FEET * settings.stiffness)
+
+
+def _object_shape(client: int, side: float, feet: Sequence[Pair]) -> int:
+    """A box, clear of the table, with spheres as feet."""
+    centres = [(x, y, _FOOT_RADIUS - HALF_HEIGHT) for x, y in feet]
+    half_box = (side / 2.0, side / 2.0, HALF_HEIGHT - _FOOT_RADIUS)
+    return int(
+        pybullet.createCollisionShapeArray(
+            shapeTypes=[pybullet.GEOM_SPHERE] * _FEET + [pybullet.GEOM_BOX],
+            radii=[_FOOT_RADIUS] * _FEET + [0.0],
+            halfExtents=[(0.0, 0.0, 0.0)] * _FEET + [half_box],
+            collisionFramePositions=[*centres, (0.0, 0.0, _FOOT_RADIUS)],
+            physicsClientId=client,
+        )
+    )
+
+
+def make_body(client: int, mass: float, shape: int, friction: float) -> int:
+    """A body that nothing slows but friction, and that never sleeps."""
+    body = int(pybullet.createMultiBody(mass, shape, physicsClientId=client))
+    pybullet.changeDynamics(
+        body,
+        -1,
+        lateralFriction=friction,
+        spinningFriction=0.0,
+        rollingFriction=0.0,
+        restitution=0.0,
+        linearDamping=0.0,
+        angularDamping=0.0,
+        activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+        physicsClientId=client,
+    )
+    return body

@@ -1,0 +1,204 @@
+"""Slider, tip and table in a physics server, seen in the axes of the physics."""
+
+from push_core.geometry.quaternion import quaternion_to_yaw, yaw_to_quaternion
+from push_core.physics.actuator import Pair
+from push_core.physics.limit_surface import GRAVITY
+from push_core.physics.slider import Slider
+
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.worlds.bullet.bodies import HALF_HEIGHT, make_object, make_tip, resting_height
+from push_sim.worlds.bullet.bullet import pybullet
+from push_sim.worlds.bullet.impact import part_until_touch
+from push_sim.worlds.bullet.snapshot import put_server_state, server_state
+from push_sim.worlds.bullet.table import UnevenTable, make_table
+from push_sim.worlds.common.axes import Axes
+from push_sim.worlds.common.outline import Outline
+from push_sim.worlds.common.support import feet
+from push_sim.worlds.common.table_friction import TableFriction
+
+_CONTACT_RANGE = 1e-3
+_USUAL_STEP = 1e-3
+_ASIDE = (0.0, 0.0, 10.0)
+_REST = (0.0, 0.0, 0.0)
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+
+
+class BulletScene:
+    """The bodies and the solver; vectors and places are in the axes of the physics."""
+
+    def __init__(self, settings: WorldSettings, slider: Slider, outline: Outline) -> None:
+        self._settings, self._slider, self._outline = settings, slider, outline
+        self._resting_height = resting_height(settings, slider)
+        self.seed = 0
+        self._uneven: UnevenTable | None = None
+        self._client = pybullet.connect(pybullet.DIRECT)
+        self._make()
+
+    def close(self) -> None:
+        """Ends the physics server."""
+        pybullet.disconnect(self._client)
+
+    def draw(self, seed: int) -> None:
+        """Makes what depends on the seed anew, if it is another one than before."""
+        if seed == self.seed:
+            return
+        self.seed = seed
+        if self._settings.pressure == 'random':
+            pybullet.resetSimulation(physicsClientId=self._client)
+            self._make()
+        elif self._settings.uneven:
+            self._uneven = self._uneven_table()
+
+    def state(self) -> bytes:
+        """The state of the physics server."""
+        return server_state(self._client)
+
+    def put_state(self, state: bytes) -> None:
+        """Goes back to a state of a scene of the same settings and seed."""
+        put_server_state(self._client, state)
+
+    @property
+    def slider(self) -> Axes:
+        """Where the slider is."""
+        (x, y, _), (_, _, q_z, q_w) = self._where(self._object)
+        return Axes(x, y, quaternion_to_yaw(q_z, q_w))
+
+    @property
+    def tip(self) -> Pair:
+        """Where the tip is."""
+        (x, y, _), _ = self._where(self._tip)
+        return x, y
+
+    @property
+    def contact(self) -> bool:
+        """Whether the tip pressed on the slider in the last time step."""
+        points = pybullet.getContactPoints(self._tip, self._object, physicsClientId=self._client)
+        normal_force = 9
+        return any(point[normal_force] > 0.0 for point in points)
+
+    @property
+    def penetration(self) -> float:
+        """Deepest overlap [m] of any two bodies in the last time step."""
+        distance = 8
+        points = pybullet.getContactPoints(physicsClientId=self._client)
+        return max((-float(point[distance]) for point in points), default=0.0)
+
+    def put_slider(self, place: Pair, theta: float) -> None:
+        """Puts the slider down at rest."""
+        self._place(self._object, (*place, self._resting_height), theta)
+
+    def put_tip(self, place: Pair) -> None:
+        """Puts the tip down at rest."""
+        self._place(self._tip, (*place, HALF_HEIGHT), 0.0)
+
+    def forget_contacts(self) -> None:
+        """Lifts the slider off everything for a step, so that no cached contact is left."""
+        self._place(self._object, _ASIDE, 0.0)
+        pybullet.stepSimulation(self._client)
+
+    def knock(self, impulse: Pair) -> None:
+        """Gives the slider's centre an impulse [N s] in the next time step."""
+        x, y = (part / self._settings.substep for part in impulse)
+        centre, _ = self._where(self._object)
+        pybullet.applyExternalForce(
+            self._object, -1, (x, y, 0.0), centre, pybullet.WORLD_FRAME, self._client
+        )
+
+    def rub(self, axes: Axes) -> None:
+        """Sets the friction of an uneven table for the next step, with the axes in the world."""
+        if self._uneven is not None:
+            linear, angular = pybullet.getBaseVelocity(self._object, self._client)
+            self._uneven.update(axes, self.slider, linear[:2], angular[2])
+
+    def step(self, velocity: Pair) -> None:
+        """One time step with the tip at a velocity."""
+        linear = (velocity[0], velocity[1], self._lift)
+        pybullet.resetBaseVelocity(self._tip, linear, _REST, self._client)
+        pybullet.stepSimulation(self._client)
+
+    def step_to_touch(self, velocity: Pair) -> None:
+        """A time step, cut in two where the tip meets the slider in it."""
+        substep = self._settings.substep
+        part = self._part_until_touch(velocity, substep)
+        if part == 1.0:
+            self.step(velocity)
+            return
+        for cut in (part * substep, (1.0 - part) * substep):
+            self._set_substep(cut)
+            self.step(velocity)
+        self._set_substep(substep)
+
+    def move_axes_under_slider(self) -> Axes:
+        """Moves the axes to the slider and along its heading; returns where it was before."""
+        client, slider = self._client, self.slider
+        (_, _, height), (q_x, q_y, q_z, q_w) = self._where(self._object)
+        linear, angular = pybullet.getBaseVelocity(self._object, client)
+        tip = slider.point_inside(self.tip)
+        _, _, z, w = yaw_to_quaternion(-slider.theta)
+        level = (w * q_x - z * q_y, w * q_y + z * q_x, w * q_z + z * q_w, w * q_w - z * q_z)
+        pybullet.resetBasePositionAndOrientation(self._object, (0.0, 0.0, height), level, client)
+        pybullet.resetBaseVelocity(
+            self._object,
+            (*slider.vector_inside(linear[:2]), linear[2]),
+            (*slider.vector_inside(angular[:2]), angular[2]),
+            client,
+        )
+        pybullet.resetBasePositionAndOrientation(self._tip, (*tip, HALF_HEIGHT), _UPRIGHT, client)
+        return slider
+
+    def _make(self) -> None:
+        """Makes all bodies in an empty physics server."""
+        client, settings, slider = self._client, self._settings, self._slider
+        self._set_up_solver()
+        self._tables = make_table(client, settings)
+        self._feet = feet(settings, slider.side, self.seed)
+        self._object = make_object(client, slider, self._feet)
+        self._tip = make_tip(client, settings, slider)
+        for table in self._tables:
+            pybullet.setCollisionFilterPair(self._tip, table, -1, -1, 0, physicsClientId=client)
+        if settings.uneven:
+            self._uneven = self._uneven_table()
+
+    def _uneven_table(self) -> UnevenTable:
+        friction = TableFriction(self._settings, self.seed)
+        return UnevenTable(self._client, self._tables, self._feet, friction)
+
+    def _set_up_solver(self) -> None:
+        settings, client = self._settings, self._client
+        # impulses grow with the step: the same error of the forces in any step
+        residual = settings.solver_residual * (settings.substep / _USUAL_STEP) ** 2
+        pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=client)
+        pybullet.setPhysicsEngineParameter(
+            numSolverIterations=settings.solver_iterations,
+            solverResidualThreshold=residual,
+            contactBreakingThreshold=_CONTACT_RANGE,
+            enableConeFriction=1,
+            deterministicOverlappingPairs=1,
+            physicsClientId=client,
+        )
+        self._set_substep(settings.substep)
+
+    def _set_substep(self, substep: float) -> None:
+        pybullet.setPhysicsEngineParameter(fixedTimeStep=substep, physicsClientId=self._client)
+        # gravity takes this vertical speed from the tip in each step, so that it stays level
+        self._lift = GRAVITY * substep
+
+    def _part_until_touch(self, velocity: Pair, substep: float) -> float:
+        slider, (x, y) = self.slider, self.tip
+        (u, v, _), (_, _, turning) = pybullet.getBaseVelocity(self._object, self._client)
+        later = Axes(
+            slider.x + u * substep, slider.y + v * substep, slider.theta + turning * substep
+        )
+        end = (x + velocity[0] * substep, y + velocity[1] * substep)
+        return part_until_touch(
+            self._outline, slider.point_inside((x, y)), later.point_inside(end)
+        )
+
+    def _where(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        position, orientation = pybullet.getBasePositionAndOrientation(body, self._client)
+        return position, orientation
+
+    def _place(self, body: int, position: tuple[float, float, float], theta: float) -> None:
+        turn = yaw_to_quaternion(theta)
+        pybullet.resetBasePositionAndOrientation(body, position, turn, self._client)
+        pybullet.resetBaseVelocity(body, _REST, _REST, self._client)

@@ -1,0 +1,1 @@
+"""What the engines share: interface, outline of the object, support, friction of the table."""

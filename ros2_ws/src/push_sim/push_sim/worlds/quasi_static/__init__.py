@@ -1,0 +1,1 @@
+"""The quasi-static engine: motion cone of an ellipsoidal limit surface."""

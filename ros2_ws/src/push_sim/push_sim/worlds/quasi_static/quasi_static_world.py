@@ -1,0 +1,203 @@
+"""The quasi-static world: a square without inertia under an ellipsoidal limit surface.
+
+It moves only while the tip pushes it, by the motion cone, integrated along the way. After an
+impulse it slides straight on and comes to rest as Coulomb's friction says, unless it meets the tip
+first, which takes its speed. Nothing overlaps by more than a picometre; a square that is put down
+on the tip is moved aside.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from push_core.common.errors import InputError
+from push_core.geometry.frames import Array, wrap_angle
+from push_core.physics.actuator import Pair
+from push_core.physics.limit_surface import GRAVITY
+from push_core.physics.slider import Slider
+
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.worlds.common.axes import Axes
+from push_sim.worlds.common.outline import Outline
+from push_sim.worlds.common.support import feet, friction_moment_radius
+from push_sim.worlds.quasi_static.rolling_contact import RollingContact, Touch
+
+_OVERLAP = 1e-12
+_TRAVEL = 0.25e-3
+_BISECTIONS = 40
+
+
+@dataclass(frozen=True)
+class QuasiStaticSnapshot:
+    """The whole state of a `QuasiStaticWorld`."""
+
+    rolling: RollingContact
+    pose: tuple[float, float, float]
+    tip: Pair
+    sliding: Pair
+    touch: Touch | None
+    pressing: bool
+
+
+class QuasiStaticWorld:
+    """A `World` of motion cones."""
+
+    def __init__(self, settings: WorldSettings, slider: Slider) -> None:
+        self._substep = settings.substep
+        self._settings = settings
+        self._side = slider.side
+        self._mass = slider.mass
+        self._deceleration = settings.friction_ground * GRAVITY
+        self._touch: Touch | None = None
+        self._outline = Outline(slider.side, slider.tip_radius)
+        self.reset(np.zeros(3), np.array([-2.0 * slider.side, 0.0]))
+
+    def close(self) -> None:
+        """Nothing to free."""
+
+    def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
+        """See `World.reset`."""
+        settings = self._settings
+        c = friction_moment_radius(feet(settings, self._side, seed))
+        self._rolling = RollingContact(self._outline, c, settings.friction_pusher)
+        self.place_tip(tip_position)
+        self.place_object(object_pose)
+        if settings.size_error:
+            self._make_room()
+
+    def place_object(self, object_pose: Array) -> None:
+        """See `World.place_object`."""
+        x, y, theta = np.asarray(object_pose, dtype=float).tolist()
+        self._pose = (x, y, theta)
+        self._sliding: Pair = (0.0, 0.0)
+        self._touch = None
+        self._pressing = False
+
+    def place_tip(self, position: Array) -> None:
+        """See `World.place_tip`."""
+        x, y = np.asarray(position, dtype=float).tolist()
+        self._tip: Pair = (x, y)
+        self._touch = None
+
+    def push_object(self, impulse: Array) -> None:
+        """See `World.push_object`."""
+        x, y = np.asarray(impulse, dtype=float).tolist()
+        self._sliding = (self._sliding[0] + x / self._mass, self._sliding[1] + y / self._mass)
+        self._touch = None
+
+    def advance(self, tip_velocity: Pair, substeps: int) -> None:
+        """See `World.advance`."""
+        velocity = (float(tip_velocity[0]), float(tip_velocity[1]))
+        left = substeps * self._substep
+        if self._touch is None:
+            self._make_room()
+        while left > 0.0:
+            left = self._push(velocity, left) if self._touch else self._approach(velocity, left)
+        self._pressing = self._touch is not None
+
+    def follow(self, tip_velocities: Sequence[Pair]) -> None:
+        """See `World.follow`."""
+        for velocity in tip_velocities:
+            self.advance(velocity, 1)
+
+    def snapshot(self) -> QuasiStaticSnapshot:
+        """See `World.snapshot`."""
+        return QuasiStaticSnapshot(
+            self._rolling, self._pose, self._tip, self._sliding, self._touch, self._pressing
+        )
+
+    def restore(self, snapshot: object) -> None:
+        """See `World.restore`."""
+        if not isinstance(snapshot, QuasiStaticSnapshot):
+            raise InputError('this snapshot is of another engine, not of quasi_static')
+        self._rolling = snapshot.rolling
+        self._pose, self._tip = snapshot.pose, snapshot.tip
+        self._sliding, self._touch = snapshot.sliding, snapshot.touch
+        self._pressing = snapshot.pressing
+
+    @property
+    def object_pose(self) -> Array:
+        """See `World.object_pose`."""
+        x, y, theta = self._pose
+        return np.array([x, y, wrap_angle(theta)])
+
+    @property
+    def tip_position(self) -> Array:
+        """See `World.tip_position`."""
+        return np.array(self._tip)
+
+    @property
+    def contact(self) -> bool:
+        """See `World.contact`."""
+        return self._pressing
+
+    @property
+    def penetration(self) -> float:
+        """Overlap [m] of square and tip."""
+        return max(0.0, -self._gap())
+
+    def _push(self, velocity: Pair, duration: float) -> float:
+        """Pushes until the tip leaves the square; returns the time [s] that is left."""
+        assert self._touch is not None
+        touch, left = self._rolling.advance(self._touch, velocity, duration)
+        self._move_tip(velocity, duration - left)
+        self._pose = self._outline.touching(*touch, self._tip)
+        self._touch = touch if left == 0.0 else None
+        return left
+
+    def _approach(self, velocity: Pair, duration: float) -> float:
+        """Moves tip and square apart from each other until they touch; returns the time left."""
+        step = self._free_step(velocity, duration)
+        before = self._tip, self._pose, self._sliding
+        self._drift(velocity, step)
+        if self._gap() >= -_OVERLAP:
+            return duration - step
+        low, high = 0.0, step
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (low + high)
+            self._tip, self._pose, self._sliding = before
+            self._drift(velocity, middle)
+            low, high = (middle, high) if self._gap() >= 0.0 else (low, middle)
+        self._sliding = (0.0, 0.0)
+        self._take_touch()
+        return duration - high
+
+    def _free_step(self, velocity: Pair, duration: float) -> float:
+        """A time [s] in which the two move little, or not as far as they are apart."""
+        speed = math.hypot(*velocity) + math.hypot(*self._sliding)
+        clear = max(self._gap(), _TRAVEL)
+        return min(duration, clear / speed) if speed > 0.0 else duration
+
+    def _drift(self, velocity: Pair, duration: float) -> None:
+        """Moves the tip, and the square as far as it slides."""
+        self._move_tip(velocity, duration)
+        speed = math.hypot(*self._sliding)
+        if speed == 0.0:
+            return
+        slid = min(duration, speed / self._deceleration)
+        lost = self._deceleration * slid / speed
+        (x, y, theta), (u, v) = self._pose, self._sliding
+        part = slid * (1.0 - 0.5 * lost)
+        self._pose = (x + part * u, y + part * v, theta)
+        kept = 0.0 if slid < duration else 1.0 - lost
+        self._sliding = (kept * u, kept * v)
+
+    def _move_tip(self, velocity: Pair, duration: float) -> None:
+        x, y = self._tip
+        self._tip = (x + velocity[0] * duration, y + velocity[1] * duration)
+
+    def _take_touch(self) -> None:
+        """Both touch: at the place of the outline that is nearest to the tip."""
+        touch = Touch(self._outline.nearest(*self._tip_in_body()), self._pose[2])
+        self._touch, self._pose = touch, self._outline.touching(*touch, self._tip)
+
+    def _make_room(self) -> None:
+        """Moves the square aside where it was put down on the tip."""
+        self._pose = self._outline.made_room(self._pose, self._tip)
+
+    def _gap(self) -> float:
+        return self._outline.gap(*self._tip_in_body())
+
+    def _tip_in_body(self) -> Pair:
+        return Axes(*self._pose).point_inside(self._tip)
