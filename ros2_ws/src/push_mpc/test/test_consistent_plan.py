@@ -1,5 +1,6 @@
 """The plan that a model believes in, held to that model's motion equations."""
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -65,5 +66,6 @@ def test_a_model_that_makes_no_sense_leaves_the_plan_as_it_is(flat, slider) -> N
 
 def test_a_plan_that_slides_a_lot_is_not_taken(flat, plan, motion, monkeypatch) -> None:
     asked = np.abs(plan.input - flat.input).max() / SPEED
-    monkeypatch.setattr('push_mpc.plan.consistent_plan._LARGEST_CHANGE', 0.8 * asked)
+    module = sys.modules[consistent_plan.__module__]
+    monkeypatch.setattr(module, '_LARGEST_CHANGE', 0.8 * asked)
     assert consistent_plan(flat, motion) is flat

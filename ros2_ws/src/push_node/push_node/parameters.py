@@ -2,8 +2,7 @@
 
 from typing import Any, TypeVar
 
-from push_core.common.errors import InputError
-from push_core.common.settings import Described, flatten, replaced
+from push_core.common import Described, InputError, flatten, replaced
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 from types import FrameType
 
 import rclpy
-from push_core.common.command_line import describe
-from push_core.common.errors import InputError, PushError
+from push_core.common import InputError, PushError, describe
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions

@@ -1,6 +1,6 @@
 """Names of topics as users write them, and in full."""
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 

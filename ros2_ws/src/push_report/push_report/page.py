@@ -10,7 +10,7 @@ from pathlib import Path
 
 import plotly.graph_objects as go
 from plotly.offline import get_plotlyjs
-from push_core.common.atomic_file import write_atomically
+from push_core.common import write_atomically
 
 COLOURS = ('#3366aa', '#bb5533', '#448844')
 DIVERGING = 'RdBu'

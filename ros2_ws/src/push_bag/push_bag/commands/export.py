@@ -10,12 +10,10 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, run_command, write_atomically
 
-from push_bag.run.run_reader import read_run
-from push_bag.score.tick_table import Table, tick_table
+from push_bag.run import read_run
+from push_bag.score import Table, tick_table
 
 EPILOG = """
 One row for each tick of the controller, in SI units, which the names of the columns end with; v_n

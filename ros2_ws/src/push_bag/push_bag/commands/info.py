@@ -6,12 +6,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, run_command, write_atomically
 
-from push_bag.file.reader import BagReader
-from push_bag.file.traffic import Traffic, lost_text
+from push_bag.file import BagReader, Traffic, lost_text
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from push_core.common.settings import setting, validate
+from push_core.common import setting, validate
 from push_node.cell_topics import CELL_TOPICS
 from push_node.parameters import declared
 from push_node.spin import run_node
@@ -16,9 +16,9 @@ from push_node.topic_names import full_name
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-from push_bag.file.qos_text import qos_text
+from push_bag.file import qos_text
 from push_bag.live.live_server import LiveServer
-from push_bag.record.recorder_settings import split_list
+from push_bag.record import split_list
 from push_bag.record.recording import Recording
 
 DRAIN_PERIOD = 0.02  # [s]; a browser draws no faster

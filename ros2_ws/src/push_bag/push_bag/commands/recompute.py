@@ -6,14 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import rclpy
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, write_atomically
 from rclpy.signals import SignalHandlerOptions
 
-from push_bag.file.yaml_text import parameter_value
+from push_bag.file import parameter_value
+from push_bag.replay import Changes, Recomputed, recomputed
 from push_bag.replay.interview import interviewed
-from push_bag.replay.recompute import Changes, Recomputed, recomputed
 
 
 def add_recompute_arguments(parser: Parser) -> None:

@@ -9,8 +9,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import rclpy
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, run_command
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
@@ -20,9 +19,8 @@ from push_bag.commands.recompute import (
     check_recompute_arguments,
     recompute,
 )
-from push_bag.file.reader import BagReader, Record
-from push_bag.replay.playback import Publishers, in_order, play, skipped_to
-from push_bag.replay.survey import Survey, survey
+from push_bag.file import BagReader, Record
+from push_bag.replay import Publishers, Survey, in_order, play, skipped_to, survey
 
 DISCOVERY_TIME = 2.0  # [s] for who looks for publishers once a second, as the recorder does
 REPLAYING = {

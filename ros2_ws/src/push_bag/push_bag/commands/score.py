@@ -6,18 +6,21 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
-from push_core.common.strict_json import json_text
+from push_core.common import InputError, Parser, json_text, run_command, write_atomically
 from tqdm import tqdm
 
-from push_bag.run.run_reader import read_run
-from push_bag.run.series import RunSeries
-from push_bag.score.figures import bound, check_bounds
-from push_bag.score.runs_table import Scores, comparison_table, runs_object, runs_table
-from push_bag.score.score import score_run, score_series
-from push_bag.score.score_table import score_table
+from push_bag.run import RunSeries, read_run
+from push_bag.score import (
+    Scores,
+    bound,
+    check_bounds,
+    comparison_table,
+    runs_object,
+    runs_table,
+    score_run,
+    score_series,
+    score_table,
+)
 
 T = TypeVar('T')
 

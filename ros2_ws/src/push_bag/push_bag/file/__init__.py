@@ -1,1 +1,58 @@
 """The bag format: MCAP records, message types, CDR, QoS and metadata."""
+
+from push_bag.file.bag_contents import BagContents
+from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
+from push_bag.file.cdr_columns import Columns, columns
+from push_bag.file.cdr_layout import Leaf, leaves
+from push_bag.file.mcap_stream import (
+    MAGIC,
+    DamagedError,
+    RawMessage,
+    RawRecord,
+    chunk_data,
+    chunk_records,
+    message,
+)
+from push_bag.file.message_types import (
+    Definition,
+    installed_definition,
+    message_class,
+    schema_text,
+)
+from push_bag.file.qos_text import qos_profile, qos_text
+from push_bag.file.reader import BagReader, Record, bag_file
+from push_bag.file.topic import Topic
+from push_bag.file.traffic import Traffic, lost_text
+from push_bag.file.whole_bag import whole_bag
+from push_bag.file.yaml_text import parameter_value
+
+__all__ = [
+    'COUNTS_RECORD',
+    'MAGIC',
+    'BagContents',
+    'BagReader',
+    'BagWriter',
+    'Columns',
+    'DamagedError',
+    'Definition',
+    'Leaf',
+    'RawMessage',
+    'RawRecord',
+    'Record',
+    'Topic',
+    'Traffic',
+    'bag_file',
+    'chunk_data',
+    'chunk_records',
+    'columns',
+    'installed_definition',
+    'leaves',
+    'lost_text',
+    'message',
+    'message_class',
+    'parameter_value',
+    'qos_profile',
+    'qos_text',
+    'schema_text',
+    'whole_bag',
+]

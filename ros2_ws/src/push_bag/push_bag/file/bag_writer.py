@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import IO, Any
 
 from mcap.writer import CompressionType, Writer
-from push_core.common.errors import InputError, RunError
+from push_core.common import InputError, RunError
 
 from push_bag.file.message_types import Definition, installed_definition
 from push_bag.file.rosbag2_metadata import Span, write_metadata

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
 SEPARATOR = '=' * 80
 DTYPES = {

@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
 SEPARATOR = '=' * 80
 INTEGERS = {f'{sign}int{bits}' for sign in ('', 'u') for bits in (8, 16, 32, 64)}

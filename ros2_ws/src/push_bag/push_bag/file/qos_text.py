@@ -4,7 +4,7 @@ from enum import Enum
 from typing import Any
 
 import yaml
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from rclpy.duration import Duration
 from rclpy.qos import (
     DurabilityPolicy,

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import IO, Any, NamedTuple
 
 from mcap.opcode import Opcode
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from rclpy.serialization import deserialize_message
 
 from push_bag.file.bag_contents import BagContents

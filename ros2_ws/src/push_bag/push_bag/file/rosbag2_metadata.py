@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from push_core.common.atomic_file import write_atomically
+from push_core.common import write_atomically
 
 from push_bag.file.yaml_text import from_yaml, to_yaml
 

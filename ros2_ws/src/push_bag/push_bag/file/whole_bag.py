@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from push_core.common.errors import RunError
+from push_core.common import RunError
 
 from push_bag.file.bag_writer import BagWriter
 

@@ -3,7 +3,7 @@
 from typing import Any
 
 import yaml
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
 _LOADER: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
 _DUMPER: Any = getattr(yaml, 'CSafeDumper', yaml.SafeDumper)

@@ -10,9 +10,9 @@ from typing import Any
 
 import foxglove
 from foxglove.websocket import ServerListener
-from push_core.common.errors import RunError
+from push_core.common import RunError
 
-from push_bag.file.message_types import schema_text
+from push_bag.file import schema_text
 from push_bag.live.horizon_marker import HORIZON_TYPE, MARKER_TYPE, horizon_marker
 
 

@@ -7,11 +7,10 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common.command_line import Parser, run_command
+from push_core.common import Parser, run_command
 from tqdm import tqdm
 
-from push_bag.file.reader import BagReader
-from push_bag.file.traffic import Traffic
+from push_bag.file import BagReader, Traffic
 from push_bag.measure.recorder_load import Publisher, RecorderProcess, at_rate, new_publisher
 from push_bag.repair.recover import recover
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
-from push_core.common.errors import RunError
+from push_core.common import RunError
 from push_msgs.msg import Horizon
 from push_node.cell_topics import CELL_TOPICS
 from rclpy.duration import Duration
@@ -23,7 +23,7 @@ from std_msgs.msg import ByteMultiArray
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from push_bag.file.message_types import message_class
+from push_bag.file import message_class
 
 READY_TIMEOUT = 30.0  # [s]
 ARRIVAL_TIMEOUT = 5.0  # [s]

@@ -8,7 +8,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from push_bag.file.message_types import message_class
+from push_bag.file import message_class
 
 DEPTH = 1000  # messages that may wait between two polls
 

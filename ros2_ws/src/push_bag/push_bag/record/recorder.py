@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from push_core.common.errors import InputError, RunError
+from push_core.common import InputError, RunError
 from push_node.cell_topics import CELL_TOPICS
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared
@@ -13,8 +13,7 @@ from push_node.topic_names import full_name
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-from push_bag.file.bag_writer import BagWriter
-from push_bag.file.traffic import lost_text
+from push_bag.file import BagWriter, lost_text
 from push_bag.record.recorder_settings import (
     RecorderSettings,
     read_attachments,

@@ -4,8 +4,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from push_core.common.errors import InputError
-from push_core.common.settings import setting, validate
+from push_core.common import InputError, setting, validate
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,11 @@ from fnmatch import fnmatchcase
 from typing import Protocol
 
 import rclpy
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from push_bag.file.bag_writer import COUNTS_RECORD
-from push_bag.file.qos_text import qos_text
-from push_bag.file.traffic import Traffic
+from push_bag.file import COUNTS_RECORD, Traffic, qos_text
 from push_bag.record.raw_subscription import RawSubscription, weakest
 
 

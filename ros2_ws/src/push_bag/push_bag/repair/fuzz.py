@@ -10,17 +10,15 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError, PushError, RunError
+from push_core.common import InputError, Parser, PushError, RunError, run_command
 from tqdm import tqdm
 
 from push_bag.commands.info import bag_text
-from push_bag.file.reader import BagReader
+from push_bag.file import BagReader
 from push_bag.repair.damage import DAMAGES
 from push_bag.repair.recover import recover
-from push_bag.replay.playback import in_order
-from push_bag.replay.survey import survey
-from push_bag.score.score import score_run
+from push_bag.replay import in_order, survey
+from push_bag.score import score_run
 
 LARGEST = 1_000_000  # [B] of the bag; a short one is spoilt all over in fewer cases
 

@@ -9,17 +9,24 @@ from dataclasses import replace
 from pathlib import Path
 
 from mcap.opcode import Opcode
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, run_command
 
-from push_bag.file.bag_contents import BagContents
-from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
-from push_bag.file.mcap_stream import DamagedError, RawMessage, RawRecord, chunk_records, message
-from push_bag.file.message_types import Definition, installed_definition
-from push_bag.file.qos_text import qos_profile
-from push_bag.file.reader import bag_file
-from push_bag.file.topic import Topic
-from push_bag.file.whole_bag import whole_bag
+from push_bag.file import (
+    COUNTS_RECORD,
+    BagContents,
+    BagWriter,
+    DamagedError,
+    Definition,
+    RawMessage,
+    RawRecord,
+    Topic,
+    bag_file,
+    chunk_records,
+    installed_definition,
+    message,
+    qos_profile,
+    whole_bag,
+)
 from push_bag.repair.recovered import Recovered
 from push_bag.repair.salvage import Damage, WholeChunk, whole_parts
 

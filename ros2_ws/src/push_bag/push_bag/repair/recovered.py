@@ -1,8 +1,6 @@
 """What was saved of a broken bag, and what is missing."""
 
-from push_bag.file.bag_contents import BagContents
-from push_bag.file.mcap_stream import RawMessage
-from push_bag.file.traffic import Traffic
+from push_bag.file import BagContents, RawMessage, Traffic
 
 SECOND = 1_000_000_000
 

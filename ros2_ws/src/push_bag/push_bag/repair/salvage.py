@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from mcap.opcode import Opcode
 
-from push_bag.file.mcap_stream import MAGIC, DamagedError, RawRecord, chunk_data
+from push_bag.file import MAGIC, DamagedError, RawRecord, chunk_data
 
 _OPENING = struct.Struct('<BQ')
 _CHUNK_HEAD = struct.Struct('<QQQI')

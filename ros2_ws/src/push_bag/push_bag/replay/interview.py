@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_msgs.msg import ControllerState
 from push_node.cell_topics import short_name
 from rclpy.node import Node
@@ -13,9 +13,7 @@ from tqdm import tqdm
 
 from push_bag.replay.questioner import Question, Questioner
 from push_bag.replay.recompute import Recomputed
-from push_bag.run.conversions import nanoseconds
-from push_bag.run.recorded_ticks import ByStamp, RecordedRun, RecordedTick
-from push_bag.run.series import Floats
+from push_bag.run import ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
 
 POSES = ('object_pose', 'pusher_pose')
 

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_node.stamps import to_stamp
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
@@ -13,10 +13,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from tqdm import tqdm
 
-from push_bag.file.message_types import message_class
-from push_bag.file.qos_text import qos_profile
-from push_bag.file.reader import Record
-from push_bag.file.topic import Topic
+from push_bag.file import Record, Topic, message_class, qos_profile
 
 REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
 CLOCK = '/clock'

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.common.errors import RunError
+from push_core.common import RunError
 from push_node.ask import READY_TIMEOUT, ask
 from push_node.qos import COMMAND, POSE
 from push_node.spin import Spinner
@@ -20,7 +20,7 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Trigger
 
-from push_bag.run.series import Floats
+from push_bag.run import Floats
 
 PATIENCE = 0.2  # [s] for an answer, before the question is put again
 ATTEMPTS = 50

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
-from push_bag.run.series import Floats, Nanoseconds
+from push_bag.run import Floats, Nanoseconds
 
 RECOMPUTE = 'push_bag.recompute'
 

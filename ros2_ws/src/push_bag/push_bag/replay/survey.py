@@ -4,11 +4,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_node.cell_topics import short_name
 
-from push_bag.file.reader import BagReader
-from push_bag.file.topic import Topic
+from push_bag.file import BagReader, Topic
 
 
 @dataclass(frozen=True)

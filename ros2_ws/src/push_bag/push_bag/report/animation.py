@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from push_report.figure_style import GREY, INK, ORANGE, styled, thinned
 
 from push_bag.report.view import View
-from push_bag.run.horizons import Horizons
-from push_bag.run.series import Floats
+from push_bag.run import Floats, Horizons
 
 FRAMES_PER_SECOND = 25.0
 MOST_FRAMES = 4000

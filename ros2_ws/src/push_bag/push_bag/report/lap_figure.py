@@ -10,8 +10,8 @@ import plotly.graph_objects as go
 from push_report.figure_style import GREY, INK, LOW_TO_HIGH, PALE, RED, styled, thinned
 
 from push_bag.report.view import View
-from push_bag.run.series import Disturbance, Floats, Reference
-from push_bag.score.tracking import Tracking
+from push_bag.run import Disturbance, Floats, Reference
+from push_bag.score import Tracking
 
 OUTLINES = 16
 LEAST_COLOUR_RANGE = 0.5  # [mm], so that a perfect lap does not show its noise

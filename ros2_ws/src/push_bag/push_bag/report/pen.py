@@ -6,7 +6,7 @@ import plotly.graph_objects as go
 from push_report.figure_style import INK, RED, thinned
 
 from push_bag.report.view import View
-from push_bag.run.series import Floats
+from push_bag.run import Floats
 
 
 @dataclass(frozen=True)

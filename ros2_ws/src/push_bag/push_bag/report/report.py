@@ -6,8 +6,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.strict_json import json_text
+from push_core.common import json_text, write_atomically
 from push_report.deferred_figure import deferred, drawing_library, drawing_script
 from push_report.page import page, section
 
@@ -16,9 +15,8 @@ from push_bag.report.lap_figure import lap_figure
 from push_bag.report.time_figure import time_figure
 from push_bag.report.timing_figure import timing_figure
 from push_bag.report.view import Scored, View, title, views
-from push_bag.run.run_reader import read_run
-from push_bag.score.score import score_series
-from push_bag.score.score_table import messages_line, score_rows
+from push_bag.run import read_run
+from push_bag.score import messages_line, score_rows, score_series
 
 SCORE_FILE = 'score.json'
 REPORT_FILE = 'report.html'

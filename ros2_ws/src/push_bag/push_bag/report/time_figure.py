@@ -10,8 +10,7 @@ from push_report.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled
 
 from push_bag.report.pen import Pen
 from push_bag.report.view import View
-from push_bag.score.contact import loss_intervals
-from push_bag.score.tracking import reference_times
+from push_bag.score import loss_intervals, reference_times
 
 Shape = dict[str, Any]  # as plotly takes it
 

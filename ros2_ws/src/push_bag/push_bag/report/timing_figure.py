@@ -9,8 +9,8 @@ from plotly.subplots import make_subplots
 from push_report.figure_style import BLUE, RED, styled
 
 from push_bag.report.view import View
-from push_bag.run.series import Floats
-from push_bag.score.timing import DEADLINE
+from push_bag.run import Floats
+from push_bag.score import DEADLINE
 
 BINS = 60
 HEIGHT = 340

@@ -4,13 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_report.figure_style import RUN_COLOURS
 
-from push_bag.run.series import Reference, RunSeries
-from push_bag.score.contact import Contact, contact
-from push_bag.score.timing import Timing, timing
-from push_bag.score.tracking import Tracking, track
+from push_bag.run import Reference, RunSeries
+from push_bag.score import Contact, Timing, Tracking, contact, timing, track
 
 Scored = tuple[RunSeries, Mapping[str, Any]]
 

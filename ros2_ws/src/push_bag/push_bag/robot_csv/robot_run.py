@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.csv_table import read_table
+from push_core.common import InputError
+from push_core.data import read_table
 
-from push_bag.run.series import Floats
+from push_bag.run import Floats
 
 COLUMNS = (
     *('t_s', 'slider_x_m', 'slider_y_m', 'slider_theta_rad'),

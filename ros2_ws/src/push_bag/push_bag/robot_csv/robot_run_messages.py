@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.geometry.quaternion import yaw_to_quaternion
-from push_core.physics.slider import Slider
+from push_core.geometry import yaw_to_quaternion
+from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_node.cell_topics import CELL_TOPICS
 from push_node.stamps import to_stamp
 from rclpy.serialization import serialize_message
 
-from push_bag.file.qos_text import qos_text
+from push_bag.file import qos_text
 from push_bag.robot_csv.robot_run import RobotRun
-from push_bag.run.series import Floats
+from push_bag.run import Floats
 
 START_NS = 1_000_000_000  # stamp of the first row
 WRITTEN = (

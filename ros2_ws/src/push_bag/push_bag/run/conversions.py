@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.errors import InputError
-from push_core.geometry.quaternion import quaternion_to_yaw
+from push_core.common import InputError
+from push_core.geometry import quaternion_to_yaw
 from push_node.stamps import NANOSECONDS, to_nanoseconds
 
-from push_bag.file.cdr_columns import Columns
+from push_bag.file import Columns
 from push_bag.run.series import Disturbance, Floats, Model, Reference
 
 STAMP = ('header.stamp.sec', 'header.stamp.nanosec')

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_node.stamps import to_nanoseconds
 
-from push_bag.file.reader import Record
+from push_bag.file import Record
 
 POINTS = 6  # of each horizon: 17 mm apart, and 0.2 mm beside the curve of the 8-track
 LONGEST_AGE_NS = 200_000_000  # an older one is no plan any more

@@ -5,12 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 from push_node.cell_topics import short_name
 
-from push_bag.file.cdr_columns import Columns
-from push_bag.file.reader import BagReader
+from push_bag.file import BagReader, Columns
 from push_bag.run.conversions import (
     POSE_FIELDS,
     STAMP,

@@ -3,12 +3,10 @@
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_node.cell_topics import short_name
 
-from push_bag.file.cdr_columns import Columns
-from push_bag.file.reader import BagReader, Record
-from push_bag.file.traffic import Traffic
+from push_bag.file import BagReader, Columns, Record, Traffic
 from push_bag.run.conversions import (
     POSE_FIELDS,
     STATE_FIELDS,

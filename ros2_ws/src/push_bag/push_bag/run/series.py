@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_msgs.msg import ControllerState
 
-from push_bag.file.reader import Record
-from push_bag.file.traffic import Traffic
+from push_bag.file import Record, Traffic
 
 Floats = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]

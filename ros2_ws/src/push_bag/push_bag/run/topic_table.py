@@ -3,12 +3,9 @@
 from collections.abc import Callable, Collection
 
 import numpy as np
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
-from push_bag.file.cdr_columns import Columns, columns
-from push_bag.file.cdr_layout import Leaf, leaves
-from push_bag.file.reader import Record
-from push_bag.file.topic import Topic
+from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves
 from push_bag.run.conversions import stamps
 from push_bag.run.series import Floats, Stamped
 

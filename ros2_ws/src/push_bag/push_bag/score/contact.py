@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from push_bag.run.series import Floats, Nanoseconds, Reference, RunSeries
+from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.score.tracking import during_tracking
 
 LOST_GAP = 0.5e-3  # [m]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError, RunError
+from push_core.common import InputError, RunError
 
 from push_bag.score.score_table import messages_lost
 

@@ -8,8 +8,8 @@ middleware_lost  what the middleware itself told the recorder.
 import numpy as np
 from push_node.cell_topics import short_name
 
-from push_bag.file.traffic import Traffic
-from push_bag.run.series import Nanoseconds, RunSeries
+from push_bag.file import Traffic
+from push_bag.run import Nanoseconds, RunSeries
 
 POSE_PERIOD_NS = 10_000_000
 

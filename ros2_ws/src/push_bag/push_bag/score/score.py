@@ -10,12 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.common.strict_json import finite
+from push_core.common import InputError, finite
 from push_msgs.msg import ControllerState
 
-from push_bag.run.run_reader import read_run
-from push_bag.run.series import Floats, Reference, RunSeries
+from push_bag.run import Floats, Reference, RunSeries, read_run
 from push_bag.score.contact import contact, loss_intervals, on_face_at_end
 from push_bag.score.message_counts import message_counts
 from push_bag.score.timing import timing

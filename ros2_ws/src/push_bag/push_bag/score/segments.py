@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from push_bag.run.series import Floats
+from push_bag.run import Floats
 
 SHORTEST = 1e-30  # [m^2]; a segment without length is a point
 

@@ -4,9 +4,9 @@ from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
-from push_bag.run.series import Floats, Nanoseconds, Reference, RunSeries, Stamped
+from push_bag.run import Floats, Nanoseconds, Reference, RunSeries, Stamped
 from push_bag.score.contact import contact
 from push_bag.score.tracking import Tracking, track
 

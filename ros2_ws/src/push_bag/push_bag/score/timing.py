@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from push_msgs.msg import ControllerState
 
-from push_bag.run.series import Floats, RunSeries
+from push_bag.run import Floats, RunSeries
 from push_bag.score.tracking import during_tracking
 
 DEADLINE = 0.010  # [s]

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from push_bag.run.series import Floats, Nanoseconds, Reference, RunSeries
+from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.score.segments import Segments
 
 NEAR = 0.06  # [m] of path to either side in which the nearest point is looked for

@@ -8,15 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_gp.models.analytical_model import ANALYTICAL
-from push_sim.settings.plant_settings import PROFILES
+from push_core.common import Parser, json_text, run_command
+from push_gp.models import ANALYTICAL
+from push_sim.settings import PROFILES
 
 from push_bringup.bench.options import add_lap_options, check_positive, opened_store
-from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob
-from push_bringup.experiment.lap_pool import push_all
-from push_bringup.setup.default_model import default_model
+from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, push_all
+from push_bringup.setup import default_model
 
 EXPERIMENTS = (*PAPER_MM, Experiment('eight', 0.15))
 VARIANTS: Mapping[str, Mapping[str, object]] = {

@@ -10,24 +10,16 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
-from push_core.common.strict_json import json_text
-from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
-from push_gp.models.analytical_model import ANALYTICAL
-from push_gp.models.mean_function import MEAN_FUNCTIONS
-from push_gp.models.model_file import save_model
-from push_gp.models.sampling import die_rows, nested_rows
+from push_core.common import InputError, Parser, json_text, run_command, write_atomically
+from push_core.data import PushSet, read_pushes
+from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, die_rows, nested_rows, save_model
 from push_gp.training.learn import learned
 from push_sim.commands.collect import collect
-from push_sim.settings.plant_settings import PROFILES
+from push_sim.settings import PROFILES
 from tqdm import tqdm
 
 from push_bringup.bench.options import add_lap_options, check_positive, opened_store
-from push_bringup.experiment.experiment import Experiment, Lap, LapJob
-from push_bringup.experiment.lap_pool import push_all, worker_pool
+from push_bringup.experiment import Experiment, Lap, LapJob, push_all, worker_pool
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 TRACK = Experiment('eight', 0.08)

@@ -8,7 +8,7 @@ from push_report.figure_style import INK, RUN_COLOURS, styled
 from push_report.page import drawn, page, section
 
 from push_bringup.bench.data import Point
-from push_bringup.experiment.experiment import Lap
+from push_bringup.experiment import Lap
 
 HEIGHT = 760
 

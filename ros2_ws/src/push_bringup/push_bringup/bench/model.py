@@ -11,16 +11,12 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError, RunError
-from push_core.common.strict_json import json_text
-from push_core.data.accuracy import accuracy
-from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
-from push_gp.models.sampling import nested_rows
+from push_core.common import InputError, Parser, RunError, json_text, run_command
+from push_core.data import PushSet, accuracy, read_pushes
+from push_gp.models import nested_rows
 from tqdm import tqdm
 
-from push_bringup.rivals.model_rivals import Fitted, fit_gpytorch, fit_ours, fit_scikit_learn
+from push_bringup.rivals import Fitted, fit_gpytorch, fit_ours, fit_scikit_learn
 
 RIVALS: dict[str, tuple[str, Callable[[PushSet], Fitted]]] = {
     'push_gp': ('push_gp', fit_ours),

@@ -3,11 +3,9 @@
 import argparse
 from pathlib import Path
 
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser
-from push_core.common.errors import InputError
+from push_core.common import InputError, Parser, check_place
 
-from push_bringup.experiment.lap_pool import LapStore, cores
+from push_bringup.experiment import LapStore, cores
 
 
 def add_lap_options(parser: Parser, laps: Path) -> None:

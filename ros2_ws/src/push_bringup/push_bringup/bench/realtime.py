@@ -9,16 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import RunError
-from push_core.common.strict_json import json_text
-from push_gp.models.analytical_model import ANALYTICAL
+from push_core.common import Parser, RunError, json_text, run_command
+from push_gp.models import ANALYTICAL
 from tqdm import tqdm
 
 from push_bringup.bench.options import add_controllers, check_positive
-from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
-from push_bringup.experiment.lap_pool import LapStore, push_all
-from push_bringup.setup.default_model import default_model
+from push_bringup.experiment import PAPER_MM, Experiment, LapJob, LapStore, push_all
+from push_bringup.setup import default_model
 
 LAPS_FILE = 'in_process.jsonl'
 EPILOG = """Example: bench realtime --runs 3 --controllers gp

@@ -11,12 +11,10 @@ from dataclasses import dataclass
 from datetime import datetime, timezone
 from pathlib import Path
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError, RunError
+from push_core.common import InputError, Parser, RunError, run_command, write_atomically
 
 from push_bringup.bench.options import check_positive
-from push_bringup.setup.machine import git_revision, processor, versions
+from push_bringup.setup import git_revision, processor, versions
 
 EPILOG = """Example: bench results --measured square_4mm_pushes.csv -o docs/results.md
 About an hour on two cores, its last 20 minutes by the clock: nothing else should run then. It can

@@ -11,10 +11,8 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from push_bag.run.run_reader import read_run
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError, RunError
-from push_core.common.strict_json import json_text
+from push_bag.run import read_run
+from push_core.common import InputError, Parser, RunError, json_text, run_command
 from push_msgs.msg import ControllerState
 from tqdm import tqdm
 

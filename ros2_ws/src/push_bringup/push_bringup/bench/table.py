@@ -7,12 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import fmean, median
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_gp.models.analytical_model import ANALYTICAL
-from push_gp.models.model_file import load_model
-from push_sim.settings.plant_settings import PROFILES
+from push_core.common import Parser, json_text, run_command, write_atomically
+from push_gp.models import ANALYTICAL, load_model
+from push_sim.settings import PROFILES
 
 from push_bringup.bench.options import (
     add_controllers,
@@ -20,9 +17,8 @@ from push_bringup.bench.options import (
     check_positive,
     opened_store,
 )
-from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob
-from push_bringup.experiment.lap_pool import push_all
-from push_bringup.setup.default_model import default_model
+from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, push_all
+from push_bringup.setup import default_model
 
 EPILOG = """Example: bench table --profile irb120 ideal --seeds 5 --html table.html
 The laps are pushed in process, with all that is random drawn from seeds 0, 1, 2, …

@@ -9,7 +9,7 @@ from push_report.figure_style import GREY, INK, RUN_COLOURS, styled
 from push_report.page import drawn, page, section
 
 from push_bringup.bench.table import Row
-from push_bringup.experiment.experiment import LapJob
+from push_bringup.experiment import LapJob
 
 HEADS = ('track', 'speed', 'perturbation', 'controller', 'profile', 'laps', 'median', 'paper')
 TALL = 380

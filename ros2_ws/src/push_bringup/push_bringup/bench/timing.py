@@ -8,18 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.atomic_file import write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_core.geometry.frames import Array
-from push_gp.models.analytical_model import ANALYTICAL
-from push_mpc.qp.stages import NX
-from push_mpc.qp.tracking_qp import Problem
+from push_core.common import Parser, json_text, run_command, write_atomically
+from push_core.geometry import Array
+from push_gp.models import ANALYTICAL
+from push_mpc.qp import NX, Problem
 from tqdm import tqdm
 
-from push_bringup.rivals.qp_recording import recorded
-from push_bringup.rivals.qp_solvers import IN_SI_UNITS, SOLVERS, Solver, exact
-from push_bringup.setup.default_model import default_model
+from push_bringup.rivals import IN_SI_UNITS, SOLVERS, Solver, exact, recorded
+from push_bringup.setup import default_model
 
 Tick = tuple[Problem, ...]
 SPEED_UNIT = 1e-2  # [m/s]; of every input in our set-up, of forces by the speed they make

@@ -4,7 +4,7 @@ import importlib
 import sys
 from collections.abc import Sequence
 
-from push_core.common.command_line import Parser
+from push_core.common import Parser
 
 # what: the module whose `main` runs it, and what it does
 BENCHES = {

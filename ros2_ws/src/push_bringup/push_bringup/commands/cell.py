@@ -12,19 +12,22 @@ from datetime import datetime
 from pathlib import Path
 
 import yaml
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError, RunError
-from push_core.tracks.track import TRACKS
-from push_gp.models.analytical_model import ANALYTICAL
-from push_gp.models.sealed_archive import read_sealed
-from push_mpc.plan.nominal import Plan
-from push_mpc.plan.planning import planned
-from push_mpc.settings.presets import PRESETS
-from push_sim.settings.plant_settings import PROFILES
+from push_core.common import InputError, Parser, RunError, run_command
+from push_core.tracks import TRACKS
+from push_gp.models import ANALYTICAL, read_sealed
+from push_mpc.plan import Plan, planned
+from push_mpc.settings import PRESETS
+from push_sim.settings import PROFILES
 
-from push_bringup.setup.cell_parameters import CellParameters, installed_config, resolved
-from push_bringup.setup.request import Request
-from push_bringup.setup.run_folder import keep_logs, new_run_folder, write_inputs
+from push_bringup.setup import (
+    CellParameters,
+    Request,
+    installed_config,
+    keep_logs,
+    new_run_folder,
+    resolved,
+    write_inputs,
+)
 
 EPILOG = """examples:
   ros2 run push_bringup cell                                   the 8-track at 80 mm/s

@@ -5,10 +5,9 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from push_core.common.command_line import Parser, run_command
-from push_core.common.settings import Described, flatten
+from push_core.common import Described, Parser, flatten, run_command
 
-from push_bringup.setup.cell_parameters import node_defaults
+from push_bringup.setup import node_defaults
 
 HEAD = """# Parameters
 

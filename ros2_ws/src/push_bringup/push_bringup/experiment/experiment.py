@@ -12,15 +12,14 @@ from statistics import fmean
 from typing import Any
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_gp.models.model_source import model_named
-from push_mpc.loop.tick import FOLLOWING, Tick
-from push_mpc.plan.planning import planned
-from push_sim.plant.plant import Observation
+from push_core.geometry import Array
+from push_gp.models import model_named
+from push_mpc.loop import FOLLOWING, Tick
+from push_mpc.plan import planned
+from push_sim.plant import Observation
 
-from push_bringup.in_process.loop import InProcessCell
-from push_bringup.setup.cell_parameters import CellParameters, installed_config, resolved
-from push_bringup.setup.request import Request
+from push_bringup.in_process import InProcessCell
+from push_bringup.setup import CellParameters, Request, installed_config, resolved
 
 PATH_POINTS = 400
 """Points of a lap that are kept for its picture."""

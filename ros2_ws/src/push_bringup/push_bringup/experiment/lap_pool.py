@@ -14,7 +14,7 @@ from dataclasses import asdict
 from multiprocessing.pool import Pool
 from pathlib import Path
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from tqdm import tqdm
 
 from push_bringup.experiment.experiment import Lap, LapJob, pushed

@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import IO
 
-from push_core.common.errors import RunError
+from push_core.common import RunError
 
 
 class CellLock:

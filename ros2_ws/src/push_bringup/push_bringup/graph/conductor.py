@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 import rclpy
-from push_core.common.errors import RunError
-from push_core.physics.slider import Slider
+from push_core.common import RunError
+from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Reset
 from push_node import qos

@@ -6,8 +6,7 @@ from pathlib import Path
 
 from push_bringup.graph.cell_lock import CellLock
 from push_bringup.graph.processes import Processes
-from push_bringup.setup.cell_parameters import installed_config
-from push_bringup.setup.request import Request
+from push_bringup.setup import Request, installed_config
 
 FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 COMING_TO_REST = 0.3  # [s]: watchdog, braking, and the last messages on their way

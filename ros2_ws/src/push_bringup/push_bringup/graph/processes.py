@@ -8,7 +8,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from push_core.common.errors import RunError
+from push_core.common import RunError
 
 MODULES = {
     'sim_node': 'push_sim.node.sim_node',

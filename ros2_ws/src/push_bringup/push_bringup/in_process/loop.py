@@ -4,16 +4,14 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from push_gp.models.model import PushModel
-from push_mpc.loop.controller import Controller, Mode, Tick
-from push_mpc.plan.nominal import Plan
-from push_mpc.table.domain import Domain
-from push_mpc.table.surrogate import Table
-from push_mpc.table.tabulation import Answer, Question, Subject, tabulation
+from push_gp.models import PushModel
+from push_mpc.loop import Controller, Mode, Tick
+from push_mpc.plan import Plan
+from push_mpc.table import Answer, Domain, Question, Subject, Table, tabulation
 from push_node.stamps import to_seconds
-from push_sim.plant.plant import Observation, Plant
+from push_sim.plant import Observation, Plant
 
-from push_bringup.setup.cell_parameters import CellParameters
+from push_bringup.setup import CellParameters
 
 OnTick = Callable[[Observation, Tick, float], None]
 

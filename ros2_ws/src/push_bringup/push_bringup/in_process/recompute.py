@@ -13,20 +13,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from push_bag.replay.recompute import Changes, Recomputed
-from push_bag.run.recorded_ticks import RecordedRun, RecordedTick
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
-from push_gp.models.analytical_model import ANALYTICAL
-from push_gp.models.model import PushModel
-from push_gp.models.model_source import model_named
-from push_mpc.loop.controller import Controller, Mode
-from push_mpc.plan.planning import planned
+from push_bag.replay import Changes, Recomputed
+from push_bag.run import RecordedRun, RecordedTick
+from push_core.common import InputError
+from push_core.geometry import Array
+from push_gp.models import ANALYTICAL, PushModel, model_named
+from push_mpc.loop import Controller, Mode
+from push_mpc.plan import planned
 from tqdm import tqdm
 
 from push_bringup.in_process.loop import tabulated
 from push_bringup.in_process.recorded_model import RecordedModel
-from push_bringup.setup.cell_parameters import CellParameters, recorded_parameters
+from push_bringup.setup import CellParameters, recorded_parameters
 
 PARAMS_FILE = 'params.yaml'
 ModelUsed = Callable[[str], PushModel]  # by the id of the one that the run used

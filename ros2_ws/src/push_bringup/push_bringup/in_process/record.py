@@ -3,19 +3,18 @@
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped
-from push_bag.file.bag_writer import BagWriter
-from push_bag.file.qos_text import qos_text
-from push_gp.models.model import ModelInfo
+from push_bag.file import BagWriter, qos_text
+from push_gp.models import ModelInfo
 from push_gp.server.conversions import model_info_message
-from push_mpc.loop.controller import Controller, Mode, Tick
+from push_mpc.loop import Controller, Mode, Tick
 from push_mpc.node import conversions as mpc
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
-from push_mpc.settings.node_settings import MpcSettings
+from push_mpc.settings import MpcSettings
 from push_msgs.msg import ControllerState
 from push_node.cell_topics import CELL_TOPICS
 from push_node.stamps import to_stamp
 from push_sim.node import conversions as sim
-from push_sim.plant.plant import Observation, Plant
+from push_sim.plant import Observation, Plant
 from rclpy.serialization import serialize_message
 
 from push_bringup.in_process.loop import nanoseconds

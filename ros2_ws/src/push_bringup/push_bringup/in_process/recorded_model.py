@@ -1,10 +1,10 @@
 """The model of a recorded run: the file in its bag, and what `add_pushes` made of it."""
 
-from push_bag.file.reader import BagReader
-from push_core.common.errors import InputError
-from push_gp.models.model import PushModel
+from push_bag.file import BagReader
+from push_core.common import InputError
+from push_gp.models import PushModel
+from push_gp.server import ModelServer
 from push_gp.server.conversions import pushes_of
-from push_gp.server.model_server import ModelServer
 from push_msgs.msg import AddedPushes
 from push_node.cell_topics import short_name
 

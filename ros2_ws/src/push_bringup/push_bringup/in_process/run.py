@@ -1,15 +1,15 @@
 """A run in one process with its bag, as `cell --mode inprocess` makes it."""
 
 from push_bag.record.recorder import open_bag
-from push_gp.models.model import PushModel
-from push_mpc.loop.controller import Tick
-from push_mpc.plan.nominal import Plan
-from push_sim.plant.plant import Observation
+from push_gp.models import PushModel
+from push_mpc.loop import Tick
+from push_mpc.plan import Plan
+from push_sim.plant import Observation
 from tqdm import tqdm
 
 from push_bringup.in_process.loop import InProcessCell
 from push_bringup.in_process.record import InProcessRecord
-from push_bringup.setup.cell_parameters import CellParameters
+from push_bringup.setup import CellParameters
 
 
 def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan) -> str:

@@ -10,12 +10,11 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
-from push_core.data.push_set import HALF_FACE, PushSet
-from push_core.geometry.frames import Array
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.likelihood import MarginalLikelihood
+from push_core.data import HALF_FACE, PushSet
+from push_core.geometry import Array
+from push_gp.regression import Hyperparameters, MarginalLikelihood
+from push_gp.training import OVER_ZERO, priors
 from push_gp.training.learn import learned
-from push_gp.training.prior import OVER_ZERO, priors
 
 Predict: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """From (m, 2) queries to mean (m, 3) and Jacobian (m, 3, 2)."""

@@ -2,17 +2,15 @@
 
 from pathlib import Path
 
-from push_gp.models.model_source import model_named
-from push_mpc.loop.controller import Mode, Tick
-from push_mpc.plan.planning import planned
-from push_mpc.qp.tracking_qp import Problem
-from push_sim.plant.perturbation import Kind, Perturbation
-from push_sim.plant.plant import Observation
+from push_gp.models import model_named
+from push_mpc.loop import Mode, Tick
+from push_mpc.plan import planned
+from push_mpc.qp import Problem
+from push_sim.plant import Kind, Observation, Perturbation
 from tqdm import tqdm
 
-from push_bringup.in_process.loop import InProcessCell
-from push_bringup.setup.cell_parameters import installed_config, resolved
-from push_bringup.setup.request import Request
+from push_bringup.in_process import InProcessCell
+from push_bringup.setup import Request, installed_config, resolved
 
 KICK_PERIOD = 4.0  # [s]
 KICKS = (

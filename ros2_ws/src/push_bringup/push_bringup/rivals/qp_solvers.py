@@ -10,8 +10,8 @@ from typing import Any, Protocol
 
 import numpy as np
 import osqp
-from push_core.geometry.frames import Array
-from push_mpc.qp.tracking_qp import OSQP_SETTINGS, Problem
+from push_core.geometry import Array
+from push_mpc.qp import OSQP_SETTINGS, Problem
 from scipy import sparse
 from scipy.linalg import solve_triangular
 

@@ -1,1 +1,29 @@
 """What a run needs before it starts: request, parameters, default model, run folder."""
+
+from push_bringup.setup.cell_parameters import (
+    CellParameters,
+    installed_config,
+    node_defaults,
+    recorded_parameters,
+    resolved,
+)
+from push_bringup.setup.default_model import default_model
+from push_bringup.setup.machine import git_revision, processor, versions
+from push_bringup.setup.request import Request
+from push_bringup.setup.run_folder import keep_logs, new_run_folder, write_inputs
+
+__all__ = [
+    'CellParameters',
+    'Request',
+    'default_model',
+    'git_revision',
+    'installed_config',
+    'keep_logs',
+    'new_run_folder',
+    'node_defaults',
+    'processor',
+    'recorded_parameters',
+    'resolved',
+    'versions',
+    'write_inputs',
+]

@@ -7,12 +7,11 @@ from typing import Any
 
 import yaml
 from ament_index_python.packages import get_package_share_directory
-from push_bag.record.recorder_settings import RecorderSettings
-from push_core.common.errors import InputError
-from push_core.common.settings import flatten, replaced
-from push_gp.server.server_settings import ServerSettings
-from push_mpc.settings.node_settings import MpcSettings, mpc_settings
-from push_sim.node.node_settings import NodeSettings, node_settings
+from push_bag.record import RecorderSettings
+from push_core.common import InputError, flatten, replaced
+from push_gp.server import ServerSettings
+from push_mpc.settings import MpcSettings, mpc_settings
+from push_sim.node import NodeSettings, node_settings
 
 from push_bringup.setup.request import Request
 

@@ -8,10 +8,9 @@ import os
 import sys
 from pathlib import Path
 
-from push_core.common.errors import InputError
-from push_gp.models.model_format import VERSION
-from push_gp.models.sealed_archive import read_sealed
-from push_sim.settings.plant_settings import profile
+from push_core.common import InputError
+from push_gp.models import VERSION, read_sealed
+from push_sim.settings import profile
 
 POINTS = 200
 SEED = 0

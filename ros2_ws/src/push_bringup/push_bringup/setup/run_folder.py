@@ -8,10 +8,9 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_gp.models.analytical_model import ANALYTICAL
-from push_gp.models.sealed_archive import read_sealed
-from push_mpc.plan.nominal import Plan
+from push_core.common import InputError
+from push_gp.models import ANALYTICAL, read_sealed
+from push_mpc.plan import Plan
 
 from push_bringup.setup.cell_parameters import CellParameters
 from push_bringup.setup.machine import git_revision, processor, versions

@@ -1,1 +1,40 @@
 """Data sets of pushes and their CSV files, and the prediction error on them."""
+
+from push_core.data.accuracy import (
+    OUTPUTS,
+    READABLE,
+    Accuracy,
+    accuracy,
+    in_push_frame,
+    per_output,
+)
+from push_core.data.csv_table import CsvTable, read_table
+from push_core.data.die import five_of_a_die
+from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
+from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
+from push_core.data.push_csv import read_pushes, write_pushes
+from push_core.data.push_set import HALF_FACE, P_Y_LIMIT, PushSet, check_distance, input_fault
+
+__all__ = [
+    'FACE_MARGIN',
+    'HALF_FACE',
+    'OUTPUTS',
+    'P_Y_LIMIT',
+    'READABLE',
+    'Accuracy',
+    'CsvTable',
+    'EndErrors',
+    'LongPushes',
+    'PushSet',
+    'accuracy',
+    'check_distance',
+    'five_of_a_die',
+    'holds_long_pushes',
+    'in_push_frame',
+    'input_fault',
+    'per_output',
+    'read_long_pushes',
+    'read_pushes',
+    'read_table',
+    'write_pushes',
+]

@@ -7,7 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 OUTPUTS = ('dx', 'dy', 'dtheta')
 READABLE = np.array([1e-3, 1e-3, math.radians(1.0)])

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 _PLACES = np.array([[0.0, 0.0], [-0.5, -30.0], [0.5, -30.0], [-0.5, 30.0], [0.5, 30.0]])
 

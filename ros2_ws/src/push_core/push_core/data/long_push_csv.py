@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 from push_core.data.csv_table import CsvTable, column_names, read_table
 from push_core.data.long_pushes import LongPushes
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 COLUMNS = (
     *('x0_m', 'y0_m', 'theta0_rad', 'x1_m', 'y1_m', 'theta1_rad'),

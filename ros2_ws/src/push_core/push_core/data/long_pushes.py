@@ -7,8 +7,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from push_core.geometry.frames import Array, wrap_angle
-from push_core.physics.slider import Slider
+from push_core.geometry import Array, wrap_angle
+from push_core.physics import Slider
 
 FACE_MARGIN = 1e-3
 """How far [m] beyond the end of the face a tip still counts as on it: a rounded corner and the

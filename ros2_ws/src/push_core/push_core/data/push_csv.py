@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from push_core.common.atomic_file import write_atomically
-from push_core.common.errors import InputError
+from push_core.common import InputError, write_atomically
 from push_core.data.csv_table import CsvTable, read_table
 from push_core.data.push_set import PushSet, check_distance, push_fault
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 COLUMNS = ('p_y_m', 'beta_rad', 'dx_m', 'dy_m', 'dtheta_rad', 'distance_m')
 """Columns of every file; columns `subset_...` of 0 and 1 may follow."""

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 HALF_FACE = 0.045
 """Half the length of the pushed face [m]."""

@@ -1,1 +1,35 @@
 """Mechanics of pushing: slider, limit surface, contact, motion cone, actuator, speed limits."""
+
+from push_core.physics.actuator import ACTUATORS, Actuator, ActuatorSettings, Pair
+from push_core.physics.limit_surface import GRAVITY, LimitSurface, uniform_pressure_radius
+from push_core.physics.motion_cone import ContactMode, MotionCone, contact_jacobian
+from push_core.physics.point_contact import (
+    mobility,
+    sliding_force,
+    slip_sign,
+    sticking_force,
+    twist_of_force,
+)
+from push_core.physics.safety import SafetyLimits, limit
+from push_core.physics.slider import Slider
+
+__all__ = [
+    'ACTUATORS',
+    'GRAVITY',
+    'Actuator',
+    'ActuatorSettings',
+    'ContactMode',
+    'LimitSurface',
+    'MotionCone',
+    'Pair',
+    'SafetyLimits',
+    'Slider',
+    'contact_jacobian',
+    'limit',
+    'mobility',
+    'sliding_force',
+    'slip_sign',
+    'sticking_force',
+    'twist_of_force',
+    'uniform_pressure_radius',
+]

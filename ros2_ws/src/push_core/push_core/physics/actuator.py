@@ -12,8 +12,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from push_core.common.settings import setting, validate
-from push_core.geometry.frames import Array
+from push_core.common import setting, validate
+from push_core.geometry import Array
 
 Pair: TypeAlias = tuple[float, float]
 _TIME_TOLERANCE = 1e-9

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from push_core.physics.slider import Slider
 
 GRAVITY = 9.81

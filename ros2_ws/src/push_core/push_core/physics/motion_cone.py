@@ -10,7 +10,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from push_core.physics import point_contact
 from push_core.physics.slider import Slider
 

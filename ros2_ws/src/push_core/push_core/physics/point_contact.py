@@ -7,7 +7,7 @@ function takes numbers as well as arrays. Source: Mason 1986, Lynch et al. 1992.
 
 from typing import Any, TypeAlias, TypeVar
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 Real = TypeVar('Real', float, Array)
 Mobility: TypeAlias = tuple[Any, Any, Any]

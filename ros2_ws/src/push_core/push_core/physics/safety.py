@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from push_core.common.settings import setting, validate
-from push_core.geometry.frames import Array
+from push_core.common import setting, validate
+from push_core.geometry import Array
 
 NOT_FINITE = 1
 SPEED = 2

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from push_core.common.settings import setting, validate
-from push_core.geometry.frames import Array, to_body, to_world
+from push_core.common import setting, validate
+from push_core.geometry import Array, to_body, to_world
 
 
 @dataclass(frozen=True)

@@ -5,15 +5,11 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
-from push_core.common.strict_json import json_text
-from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
+from push_core.common import InputError, Parser, check_place, json_text, run_command
+from push_core.data import PushSet, read_pushes
 from tqdm import tqdm
 
-from push_gp.evaluation.learning_curve import METHODS, Place, learning_curve, sizes_within
+from push_gp.evaluation import METHODS, Place, learning_curve, sizes_within
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -6,22 +6,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_core.data.accuracy import OUTPUTS, READABLE
-from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
-from push_core.data.push_csv import read_pushes
-from push_core.geometry.frames import Array
+from push_core.common import Parser, check_place, json_text, run_command
+from push_core.data import OUTPUTS, READABLE, holds_long_pushes, read_long_pushes, read_pushes
+from push_core.geometry import Array
 
-from push_gp.evaluation.evaluation import (
-    Evaluation,
-    RolloutEvaluation,
-    evaluation,
-    rollout_evaluation,
-)
-from push_gp.models.model import PushModel
-from push_gp.models.model_source import model_named
+from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluation, rollout_evaluation
+from push_gp.models import PushModel, model_named
 
 
 def main(argv: Sequence[str] | None = None) -> int:

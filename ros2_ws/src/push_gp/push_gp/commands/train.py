@@ -7,19 +7,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
-from push_core.data.accuracy import OUTPUTS
-from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
+from push_core.common import InputError, Parser, check_place, run_command
+from push_core.data import OUTPUTS, PushSet, read_pushes
 from tqdm import tqdm
 
-from push_gp.evaluation.summary import training_summary
-from push_gp.models.gp_model import GpModel
-from push_gp.models.mean_function import MEAN_FUNCTIONS
-from push_gp.models.model_file import save_model
-from push_gp.models.sampling import Rows, die_rows, nested_rows, random_rows, subset_rows
+from push_gp.evaluation import training_summary
+from push_gp.models import (
+    MEAN_FUNCTIONS,
+    GpModel,
+    Rows,
+    die_rows,
+    nested_rows,
+    random_rows,
+    save_model,
+    subset_rows,
+)
 from push_gp.training.learn import learned
 
 

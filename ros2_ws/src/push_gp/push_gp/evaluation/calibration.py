@@ -4,12 +4,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.data.accuracy import READABLE
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.data import READABLE, PushSet
+from push_core.geometry import Array
 
-from push_gp.models.gp_model import GpModel
-from push_gp.models.model import PushModel
+from push_gp.models import GpModel, PushModel
 
 
 @dataclass(frozen=True)

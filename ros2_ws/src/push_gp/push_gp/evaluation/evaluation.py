@@ -4,16 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.accuracy import Accuracy, accuracy, per_output
-from push_core.data.long_pushes import EndErrors, LongPushes
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.data import Accuracy, EndErrors, LongPushes, PushSet, accuracy, per_output
+from push_core.geometry import Array
 
 from push_gp.evaluation.calibration import Calibration, calibration
 from push_gp.evaluation.rollout import rolled_out
-from push_gp.models.gp_model import GpModel
-from push_gp.models.model import PushModel
+from push_gp.models import GpModel, PushModel
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,12 @@ from statistics import NormalDist
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
-from push_core.data.accuracy import OUTPUTS, READABLE
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.data import OUTPUTS, READABLE, PushSet
+from push_core.geometry import Array
 from push_report.page import COLOURS, DIVERGING, write_page
 
 from push_gp.evaluation.summary import UNITS
-from push_gp.models.gp_model import GpModel
-from push_gp.models.model import PushModel
+from push_gp.models import GpModel, PushModel
 
 LEVELS = np.linspace(0.05, 0.99, 48)
 TITLES = [f'{name} [{unit}]' for name, unit in zip(OUTPUTS, UNITS, strict=True)]

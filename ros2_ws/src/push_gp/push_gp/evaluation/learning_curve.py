@@ -4,13 +4,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.accuracy import accuracy
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.data import PushSet, accuracy
+from push_core.geometry import Array
 
 from push_gp.evaluation.calibration import calibration
-from push_gp.models.model import PushModel
+from push_gp.models import PushModel
 from push_gp.training.fit_cone import fitted_cone
 from push_gp.training.learn import learned
 

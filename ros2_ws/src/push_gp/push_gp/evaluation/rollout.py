@@ -3,11 +3,10 @@
 import math
 
 import numpy as np
-from push_core.data.long_pushes import FACE_MARGIN, LongPushes
-from push_core.geometry.displacement import twist_of
-from push_core.geometry.frames import Array
+from push_core.data import FACE_MARGIN, LongPushes
+from push_core.geometry import Array, twist_of
 
-from push_gp.models.model import PushModel
+from push_gp.models import PushModel
 
 LONGEST_STEP = 1e-3
 """[m] of the tip, in each of which the answer of the model is taken for a rate."""

@@ -3,10 +3,9 @@
 import math
 from collections.abc import Iterator
 
-from push_core.data.accuracy import OUTPUTS, READABLE, accuracy
-from push_core.data.push_set import PushSet
+from push_core.data import OUTPUTS, READABLE, PushSet, accuracy
 
-from push_gp.models.gp_model import GpModel
+from push_gp.models import GpModel
 
 UNITS = ('mm', 'mm', 'deg')
 

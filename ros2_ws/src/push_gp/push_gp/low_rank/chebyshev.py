@@ -7,7 +7,7 @@ Source: Trefethen, Approximation Theory and Approximation Practice, 2013, chapte
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 SPARE, PER_LENGTHSCALE = 20, 11
 """Polynomials that surely suffice: so many, and more for each lengthscale in the half width."""

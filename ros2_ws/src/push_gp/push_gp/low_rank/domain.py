@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from push_core.data.push_set import P_Y_LIMIT
-from push_core.geometry.frames import Array
+from push_core.data import P_Y_LIMIT
+from push_core.geometry import Array
 
 from push_gp.low_rank.chebyshev import Interval
 

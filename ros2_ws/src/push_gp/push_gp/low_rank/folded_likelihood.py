@@ -11,14 +11,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.geometry.frames import Array
+from push_core.common import RunError
+from push_core.geometry import Array
 from scipy.linalg import lapack
 
 from push_gp.low_rank.chebyshev import Interval
 from push_gp.low_rank.kernel_modes import KernelModes
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.likelihood import MarginalLikelihood
+from push_gp.regression import Hyperparameters, MarginalLikelihood
 
 CUT_OFF = 1e-12
 """Terms of the kernel of unit signal that are smaller are left out: they move the likelihood of

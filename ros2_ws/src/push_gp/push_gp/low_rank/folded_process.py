@@ -9,13 +9,12 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from scipy.linalg import cho_solve, solve_triangular
 
 from push_gp.low_rank.domain import INTERVALS, covers
 from push_gp.low_rank.kernel_modes import KernelModes
-from push_gp.regression.gp import GaussianProcess, factor
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression import GaussianProcess, Hyperparameters, factor
 
 WORTH_FOLDING = 0.5
 """Features for each push from which folding gains nothing."""

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 from push_gp.low_rank.chebyshev import Interval
 

@@ -7,12 +7,10 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.data.push_set import check_distance
-from push_core.geometry.displacement import displacement_of
-from push_core.geometry.frames import Array
-from push_core.physics.motion_cone import MotionCone
-from push_core.physics.slider import Slider
+from push_core.common import RunError
+from push_core.data import check_distance
+from push_core.geometry import Array, displacement_of
+from push_core.physics import MotionCone, Slider
 
 from push_gp.models.model import ModelInfo
 

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_gp.low_rank.folded_process import Process
-from push_gp.regression.kernel import input_features, query_features
+from push_gp.low_rank import Process
+from push_gp.regression import input_features, query_features
 
 CACHED_NUMBERS = 100_000
 """Covariances worked on at once: what stays in the cache of one core."""

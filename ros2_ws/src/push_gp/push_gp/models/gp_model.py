@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.data import PushSet
+from push_core.geometry import Array
 
-from push_gp.low_rank.folded_process import Process, conditioned
+from push_gp.low_rank import Process, conditioned
 from push_gp.models.mean_function import ConeMean, MeanFunction
 from push_gp.models.model import ModelInfo
 from push_gp.models.posterior_mean import PosteriorMean
 from push_gp.models.thinning import kept_rows
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression import Hyperparameters
 
 NORMAL_95 = 1.959963984540054
 """Standard deviations on each side of the mean that hold 95 % of a normal distribution."""

@@ -5,10 +5,9 @@ from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_gp.low_rank.chebyshev import Interval
-from push_gp.low_rank.domain import INTERVALS, covers
+from push_gp.low_rank import INTERVALS, Interval, covers
 from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.polynomials import Polynomials
 

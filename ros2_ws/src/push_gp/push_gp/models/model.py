@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 
 @dataclass(frozen=True)

@@ -5,18 +5,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.accuracy import OUTPUTS
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import InputError
+from push_core.data import OUTPUTS, PushSet
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ConeMean, MeanFunction, ZeroMean
 from push_gp.models.model_format import CONVENTIONS, FORMAT, VERSION
 from push_gp.models.sealed_archive import read_sealed, write_sealed
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression import Hyperparameters
 
 
 def save_model(path: Path, model: GpModel) -> None:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from push_core.physics.slider import Slider
+from push_core.physics import Slider
 
 from push_gp.models.analytical_model import ANALYTICAL, NOMINAL_DISTANCE, AnalyticalModel
 from push_gp.models.model import PushModel

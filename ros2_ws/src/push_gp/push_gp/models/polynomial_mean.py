@@ -8,11 +8,9 @@ the domain.
 from collections.abc import Sequence
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_gp.low_rank.chebyshev import Interval
-from push_gp.low_rank.domain import INTERVALS
-from push_gp.low_rank.folded_process import Process
+from push_gp.low_rank import INTERVALS, Interval, Process
 
 CUT_OFF = 1e-12
 """What the polynomials that are left out amount to, of the root mean square of a mean."""

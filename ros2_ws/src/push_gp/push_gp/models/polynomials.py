@@ -5,9 +5,9 @@ An answer is two matrix products, without a single exponential.
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebder
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_gp.low_rank.domain import CENTRE, COVERED
+from push_gp.low_rank import CENTRE, COVERED
 
 QUERIES_AT_ONCE = 1024
 """So few that what is worked on stays in the cache of one core."""

@@ -2,10 +2,9 @@
 
 from collections.abc import Sequence
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_gp.low_rank.domain import covers
-from push_gp.low_rank.folded_process import Process
+from push_gp.low_rank import Process, covers
 from push_gp.models.batched_mean import BatchedMean
 from push_gp.models.mean_function import MeanFunction
 from push_gp.models.polynomial_mean import summed_up

@@ -2,9 +2,8 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.errors import InputError
-from push_core.data.die import five_of_a_die
-from push_core.data.push_set import HALF_FACE, PushSet
+from push_core.common import InputError
+from push_core.data import HALF_FACE, PushSet, five_of_a_die
 
 Rows = NDArray[np.intp]
 

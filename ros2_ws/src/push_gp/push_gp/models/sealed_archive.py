@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common.atomic_file import write_atomically
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError, write_atomically
+from push_core.geometry import Array
 
 HEADER = 'header.json'
 SEAL_LENGTH = 64

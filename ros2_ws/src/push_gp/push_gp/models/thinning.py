@@ -5,8 +5,8 @@ the whole domain stays, and what was measured again is known by its newest measu
 """
 
 import numpy as np
-from push_core.data.push_set import HALF_FACE
-from push_core.geometry.frames import Array
+from push_core.data import HALF_FACE
+from push_core.geometry import Array
 
 from push_gp.models.sampling import Rows
 

@@ -6,8 +6,8 @@ Source: Rasmussen and Williams 2006, algorithm 2.1.
 from functools import cached_property
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.geometry.frames import Array
+from push_core.common import RunError
+from push_core.geometry import Array
 from scipy.linalg import LinAlgError, cholesky, solve_triangular
 
 from push_gp.regression.hyperparameters import Hyperparameters

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 
 @dataclass(frozen=True)

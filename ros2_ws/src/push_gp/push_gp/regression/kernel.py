@@ -4,7 +4,7 @@ It has no half in the exponent: a lengthscale here is sqrt(2) times one of most 
 """
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 from push_gp.regression.hyperparameters import Hyperparameters
 

@@ -6,8 +6,8 @@ Source: Rasmussen and Williams 2006, equations 2.30 and 5.9, for the kernel of `
 import math
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.geometry.frames import Array
+from push_core.common import RunError
+from push_core.geometry import Array
 from scipy.linalg import lapack
 
 from push_gp.regression.hyperparameters import Hyperparameters

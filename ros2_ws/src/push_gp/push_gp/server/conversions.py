@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from push_core.common.errors import InputError
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.data import PushSet
+from push_core.geometry import Array
 from push_msgs.msg import AddedPushes
 from push_msgs.msg import ModelInfo as ModelInfoMessage
 from push_msgs.srv import AddPushes, Predict
 
-from push_gp.models.model import ModelInfo
+from push_gp.models import ModelInfo
 
 
 def model_info_message(info: ModelInfo, stamp: Time) -> ModelInfoMessage:

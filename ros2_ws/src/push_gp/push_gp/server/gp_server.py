@@ -3,8 +3,8 @@
 import sys
 from collections.abc import Sequence
 
-from push_core.common.errors import PushError
-from push_core.data.push_set import PushSet
+from push_core.common import PushError
+from push_core.data import PushSet
 from push_msgs.msg import AddedPushes, ModelInfo
 from push_msgs.srv import AddPushes, Predict
 from push_node.diagnostics import Reporter
@@ -13,7 +13,7 @@ from push_node.qos import HISTORY, LATCHED
 from push_node.spin import run_node
 from rclpy.node import Node
 
-from push_gp.models.model_source import model_named
+from push_gp.models import model_named
 from push_gp.server.conversions import (
     added_pushes_message,
     flat,

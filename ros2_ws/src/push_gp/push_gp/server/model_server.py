@@ -4,12 +4,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.push_set import PushSet, input_fault
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.data import PushSet, input_fault
+from push_core.geometry import Array
 
-from push_gp.models.gp_model import GpModel
-from push_gp.models.model import ModelInfo, PushModel
+from push_gp.models import GpModel, ModelInfo, PushModel
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from push_core.common.settings import nested, setting, validate
-from push_core.physics.slider import Slider
+from push_core.common import nested, setting, validate
+from push_core.physics import Slider
 
-from push_gp.models.analytical_model import ANALYTICAL, NOMINAL_DISTANCE
+from push_gp.models import ANALYTICAL, NOMINAL_DISTANCE
 
 
 @dataclass(frozen=True)

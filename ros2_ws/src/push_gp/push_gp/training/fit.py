@@ -9,13 +9,12 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.geometry.frames import Array
+from push_core.common import RunError
+from push_core.geometry import Array
 from scipy.optimize import OptimizeResult, minimize
 
 from push_gp.low_rank.folded_likelihood import FoldedLikelihood
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.likelihood import MarginalLikelihood
+from push_gp.regression import Hyperparameters, MarginalLikelihood
 from push_gp.training.prior import Prior
 
 FIRST_STAGE = 300

@@ -1,12 +1,12 @@
 """Fits the two numbers of the motion cone that a table of materials does not tell."""
 
 import numpy as np
-from push_core.data.push_set import HALF_FACE, PushSet
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.data import HALF_FACE, PushSet
+from push_core.geometry import Array
+from push_core.physics import Slider
 from scipy.optimize import least_squares
 
-from push_gp.models.analytical_model import AnalyticalModel
+from push_gp.models import AnalyticalModel
 
 NOMINAL = Slider(friction_pusher=0.3, support_radius=0.0344)
 """Tabulated friction, and the support radius of uniform pressure."""

@@ -2,12 +2,10 @@
 
 from collections.abc import Callable
 
-from push_core.data.accuracy import OUTPUTS
-from push_core.data.push_set import PushSet
+from push_core.data import OUTPUTS, PushSet
 from threadpoolctl import threadpool_limits
 
-from push_gp.models.gp_model import GpModel, residuals
-from push_gp.models.mean_function import ConeMean, MeanFunction, ZeroMean
+from push_gp.models import ConeMean, GpModel, MeanFunction, ZeroMean, residuals
 from push_gp.training.fit import fit
 from push_gp.training.fit_cone import fitted_cone
 from push_gp.training.prior import OVER_CONE, OVER_ZERO, priors

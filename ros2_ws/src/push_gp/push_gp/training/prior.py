@@ -9,8 +9,8 @@ pushing is of the order of one: half a face, a radian, the distance of the push.
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.data.push_set import HALF_FACE
-from push_core.geometry.frames import Array
+from push_core.data import HALF_FACE
+from push_core.geometry import Array
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ filter over the path: a push is quasi-static and knows lengths, not times.
 import math
 
 import numpy as np
-from push_core.geometry.frames import Array, wrap_angle
-from push_core.physics.slider import Slider
+from push_core.geometry import Array, wrap_angle
+from push_core.physics import Slider
 
-from push_mpc.table.surrogate import Table
+from push_mpc.table import Table
 
 _CONTACT_GAP = 1e-3  # [m] from which the tip does not push
 _LEAST_TRAVEL = 1e-5  # [m] below which a tick tells nothing but noise

@@ -8,11 +8,10 @@ import math
 from typing import TypeAlias
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import Actuator, ActuatorSettings, Pair
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Actuator, ActuatorSettings, Pair, Slider
 
-from push_mpc.table.surrogate import Table
+from push_mpc.table import Table
 
 Pose: TypeAlias = tuple[float, float, float]
 _STEP = 0.01

@@ -6,24 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array, rotation, wrap_angle
-from push_core.physics.safety import limit
-from push_core.physics.slider import Slider
+from push_core.geometry import Array, rotation, wrap_angle
+from push_core.physics import Slider, limit
 
-from push_mpc.estimate.disturbance import Disturbance
-from push_mpc.estimate.predictor import Predictor
+from push_mpc.estimate import Disturbance, Predictor
 from push_mpc.loop.tick import FOLLOWING, Mode, Tick
-from push_mpc.motion.dynamics import TravelMotion
-from push_mpc.plan.consistent_plan import consistent_plan
-from push_mpc.plan.nominal import Plan
-from push_mpc.qp.force_steering import ForceSteering
-from push_mpc.qp.planned_states import PlannedStates
-from push_mpc.qp.steering import Programs, Steering
-from push_mpc.qp.tracking_qp import Problem
-from push_mpc.qp.velocity_steering import VelocitySteering
-from push_mpc.settings.controller_settings import ControllerSettings
-from push_mpc.settings.recontact import approach, departure, is_apart
-from push_mpc.table.surrogate import Table
+from push_mpc.motion import TravelMotion
+from push_mpc.plan import Plan, consistent_plan
+from push_mpc.qp import ForceSteering, PlannedStates, Problem, Programs, Steering, VelocitySteering
+from push_mpc.settings import ControllerSettings, approach, departure, is_apart
+from push_mpc.table import Table
 
 __all__ = ['Controller', 'Mode', 'Tick']
 

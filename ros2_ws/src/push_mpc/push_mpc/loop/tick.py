@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 from enum import IntEnum
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_mpc.qp.planned_states import PlannedStates
+from push_mpc.qp import PlannedStates
 
 
 class Mode(IntEnum):

@@ -9,11 +9,8 @@ turn rolls on the turning face besides: d(p_y)/dt = slip + omega * radius.
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics import point_contact
-from push_core.physics.limit_surface import LimitSurface
-from push_core.physics.motion_cone import contact_jacobian
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import LimitSurface, Slider, contact_jacobian, point_contact
 
 from push_mpc.motion.dynamics import disturbed, to_rates
 

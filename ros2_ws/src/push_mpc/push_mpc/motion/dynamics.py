@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 
 class TravelModel(Protocol):

@@ -1,8 +1,7 @@
 """From displacements over a push, which a model answers, to the rates of motion equations."""
 
 import numpy as np
-from push_core.geometry.displacement import twist_of
-from push_core.geometry.frames import Array
+from push_core.geometry import Array, twist_of
 
 
 def travel_rates(mean: Array, jacobian: Array, distance: float) -> tuple[Array, Array]:

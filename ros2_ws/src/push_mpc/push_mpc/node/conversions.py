@@ -6,16 +6,15 @@ from pathlib import Path
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.geometry.frames import Array
-from push_core.geometry.quaternion import quaternion_to_yaw
+from push_core.geometry import Array, quaternion_to_yaw
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node.stamps import to_stamp
 
-from push_mpc.loop.controller import Tick
-from push_mpc.plan.nominal import Plan
-from push_mpc.settings.node_settings import MpcSettings
-from push_mpc.table.tabulation import Answer, Question
+from push_mpc.loop import Tick
+from push_mpc.plan import Plan
+from push_mpc.settings import MpcSettings
+from push_mpc.table import Answer, Question
 
 
 def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:

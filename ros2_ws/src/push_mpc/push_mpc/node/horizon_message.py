@@ -6,7 +6,7 @@ import numpy as np
 from push_msgs.msg import Horizon
 from push_node.stamps import to_stamp
 
-from push_mpc.qp.planned_states import PlannedStates
+from push_mpc.qp import PlannedStates
 
 HORIZON_EVERY = 5  # ticks; an eye needs no more
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from push_core.common.errors import PushError
+from push_core.common import PushError
 from push_msgs.msg import ModelInfo
 from push_msgs.srv import Predict
 from push_node.qos import LATCHED
@@ -13,11 +13,9 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 
-from push_mpc.loop.controller import Model
+from push_mpc.loop import Model
 from push_mpc.node.conversions import answer_of, request_of
-from push_mpc.table.domain import Domain
-from push_mpc.table.surrogate import Table
-from push_mpc.table.tabulation import Conversation, Question, Subject, Tabulated, tabulation
+from push_mpc.table import Conversation, Domain, Question, Subject, Table, Tabulated, tabulation
 
 ASK_PERIOD = 0.02  # [s]
 PATIENCE = 1.0  # [s]; a request sent before both sides know each other is lost

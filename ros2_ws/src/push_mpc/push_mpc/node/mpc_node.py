@@ -18,16 +18,16 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from push_mpc.loop.controller import Controller, Mode, Tick
+from push_mpc.loop import Controller, Mode, Tick
 from push_mpc.node import conversions
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.node.model_client import ModelClient
 from push_mpc.node.pose_pair import PosePair
 from push_mpc.node.recorder_watch import RecorderWatch
 from push_mpc.node.watchdog import Watchdog
-from push_mpc.plan.planning import planned
-from push_mpc.settings.node_settings import mpc_settings
-from push_mpc.table.tabulation import Tabulated
+from push_mpc.plan import planned
+from push_mpc.settings import mpc_settings
+from push_mpc.table import Tabulated
 
 LAST_WORD_TIMEOUT = 1.0  # [s] for the last command to arrive, and for the last state
 REPORT_PERIOD = 1.0  # [s]

@@ -10,10 +10,10 @@ linear system of narrow band. Nothing of it runs in the loop.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from scipy.linalg import LinAlgError, solve_banded
 
-from push_mpc.motion.dynamics import Motion
+from push_mpc.motion import Motion
 from push_mpc.plan.nominal import Plan
 
 _STEP = 0.001  # [m] of path in one interval, at least

@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
-from push_core.tracks.track import Track
+from push_core.common import InputError
+from push_core.geometry import Array
+from push_core.physics import Slider
+from push_core.tracks import Track
 
 _LONGEST_STEP = 0.0003  # [m]
 _SETTLING_LENGTHS = 30.0

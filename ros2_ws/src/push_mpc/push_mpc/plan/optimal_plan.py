@@ -13,12 +13,12 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
-from push_core.tracks.track import Track
+from push_core.common import InputError
+from push_core.geometry import Array
+from push_core.physics import Slider
+from push_core.tracks import Track
 
-from push_mpc.motion.contact_force import ContactForce
+from push_mpc.motion import ContactForce
 from push_mpc.plan.nominal import Plan, path
 
 _INTERVAL = 0.003  # [m] of path with one force

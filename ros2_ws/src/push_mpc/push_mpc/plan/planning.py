@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 from push_core import tracks
-from push_core.common.errors import InputError
-from push_core.physics.safety import SafetyLimits
+from push_core.common import InputError
+from push_core.physics import SafetyLimits
 
 from push_mpc.plan.nominal import Plan, TooTightError, flat_plan
 from push_mpc.plan.optimal_plan import Task, optimal_plan
-from push_mpc.settings.node_settings import MpcSettings
+from push_mpc.settings import MpcSettings
 
 _PLACES = 1000
 _MARGIN = 0.5  # [s] beyond horizon and delay

@@ -1,1 +1,19 @@
 """The QP of one tick: linearised stages, cost, constraints, solver."""
+
+from push_mpc.qp.force_steering import ForceSteering
+from push_mpc.qp.planned_states import PlannedStates
+from push_mpc.qp.stages import NX
+from push_mpc.qp.steering import Programs, Steering
+from push_mpc.qp.tracking_qp import OSQP_SETTINGS, Problem
+from push_mpc.qp.velocity_steering import VelocitySteering
+
+__all__ = [
+    'NX',
+    'OSQP_SETTINGS',
+    'ForceSteering',
+    'PlannedStates',
+    'Problem',
+    'Programs',
+    'Steering',
+    'VelocitySteering',
+]

@@ -8,19 +8,16 @@ along, or slides one way in the first stage and sticks from then on. The cheapes
 from dataclasses import replace
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.limit_surface import LimitSurface
-from push_core.physics.motion_cone import ContactMode
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import ContactMode, LimitSurface, Slider
 
-from push_mpc.motion.contact_force import ContactForce
-from push_mpc.motion.dynamics import TravelModel
-from push_mpc.plan.nominal import Plan
+from push_mpc.motion import ContactForce, TravelModel
+from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
 from push_mpc.qp.steering import Move, Programs
 from push_mpc.qp.tracking_qp import Solution, TrackingQP
-from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings import ControllerSettings
 
 FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
 _SOLVED = 1

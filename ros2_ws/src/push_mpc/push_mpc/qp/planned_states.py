@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_mpc.plan.nominal import Plan
+from push_mpc.plan import Plan
 from push_mpc.qp.stages import STATE_SCALE
 
 

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_mpc.motion.dynamics import Motion, discretised
-from push_mpc.plan.nominal import Plan
+from push_mpc.motion import Motion, discretised
+from push_mpc.plan import Plan
 from push_mpc.qp.steady_shift import steady_shift
 
 

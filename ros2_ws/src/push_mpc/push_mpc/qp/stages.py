@@ -7,8 +7,8 @@ millimetres, hundredths of a radian and, at the usual speeds, inputs of about on
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 from push_mpc.qp.preview import Preview
 

@@ -1,8 +1,8 @@
 """Where the plan has to give way so that a constant disturbance leaves the object on its path."""
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 # a turn [rad] weighs like 30 mm of displacement; where the contact goes matters least
 _WORTH = np.array([1.0, 1.0, 0.03, 0.1])

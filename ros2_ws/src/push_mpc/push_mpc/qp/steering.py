@@ -7,10 +7,10 @@ object's displacement, `ForceSteering` the contact's force and mode by its limit
 from dataclasses import dataclass
 from typing import Protocol
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_mpc.motion.dynamics import TravelModel
-from push_mpc.plan.nominal import Plan
+from push_mpc.motion import TravelModel
+from push_mpc.plan import Plan
 from push_mpc.qp.stages import Stages
 from push_mpc.qp.tracking_qp import TrackingQP
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import osqp
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from scipy import sparse
 
 from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages

@@ -4,16 +4,16 @@ Bauza, Hogan and Rodriguez 2018, section 4, for any model of the object's displa
 """
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 
-from push_mpc.motion.dynamics import TravelModel, TravelMotion
-from push_mpc.plan.nominal import Plan
+from push_mpc.motion import TravelModel, TravelMotion
+from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
 from push_mpc.qp.steering import Move, Programs
 from push_mpc.qp.tracking_qp import TrackingQP
-from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings import ControllerSettings
 
 SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
 

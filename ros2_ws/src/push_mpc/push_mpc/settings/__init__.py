@@ -1,1 +1,16 @@
 """Settings of the controller and of its node."""
+
+from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.node_settings import MpcSettings, mpc_settings
+from push_mpc.settings.presets import PRESETS
+from push_mpc.settings.recontact import approach, departure, is_apart
+
+__all__ = [
+    'PRESETS',
+    'ControllerSettings',
+    'MpcSettings',
+    'approach',
+    'departure',
+    'is_apart',
+    'mpc_settings',
+]

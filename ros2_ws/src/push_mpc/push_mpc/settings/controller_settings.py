@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass
 
-from push_core.common.settings import nested, setting, validate
-from push_core.physics.actuator import ActuatorSettings
-from push_core.physics.safety import SafetyLimits
+from push_core.common import nested, setting, validate
+from push_core.physics import ActuatorSettings, SafetyLimits
 
 from push_mpc.settings.recontact import RecontactSettings
 

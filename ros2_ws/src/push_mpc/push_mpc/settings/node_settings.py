@@ -2,9 +2,8 @@
 
 from dataclasses import dataclass, replace
 
-from push_core.common.settings import nested, setting, validate
-from push_core.physics.actuator import ACTUATORS
-from push_core.physics.slider import Slider
+from push_core.common import nested, setting, validate
+from push_core.physics import ACTUATORS, Slider
 
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.presets import PRESETS, with_preset

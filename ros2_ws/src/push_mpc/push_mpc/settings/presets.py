@@ -7,7 +7,7 @@ and Rodriguez 2018 and none of what was added since: docs/control.md says how fa
 from dataclasses import replace
 from typing import TypeVar
 
-from push_core.common.settings import replaced
+from push_core.common import replaced
 
 from push_mpc.settings.controller_settings import ControllerSettings, ForceWeights, Weights
 

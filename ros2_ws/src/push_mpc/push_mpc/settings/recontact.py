@@ -8,9 +8,9 @@ face first where it would miss it; once it touches, the program catches up with 
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.settings import setting, validate
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import setting, validate
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 _TOUCH = 5e-4  # [m]; a gap that counts as contact again
 _APPROACH_TIME = 0.05  # [s] in which the rest of the way would be gone

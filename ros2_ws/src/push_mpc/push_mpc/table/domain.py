@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 from push_mpc.table.surrogate import Grid
 

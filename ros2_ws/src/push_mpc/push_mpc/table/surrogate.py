@@ -7,8 +7,8 @@ from central differences of its Jacobian (bicubic Hermite interpolation).
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.geometry import Array
 
 # Hermite basis on [0, 1]: rows are powers of t; columns value at 0, value at 1, slope at 0, at 1
 _HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=float)

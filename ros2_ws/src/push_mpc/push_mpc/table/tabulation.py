@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_mpc.motion.travel_rates import travel_rates
+from push_mpc.motion import travel_rates
 from push_mpc.table.domain import Domain
 from push_mpc.table.surrogate import Grid, Table
 

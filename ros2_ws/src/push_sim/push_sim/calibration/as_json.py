@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from push_sim.calibration.fit import Calibration
-from push_sim.validation.as_json import as_json as validation_json
+from push_sim.validation import as_json as validation_json
 
 
 @dataclass(frozen=True)

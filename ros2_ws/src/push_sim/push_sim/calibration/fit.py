@@ -10,20 +10,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.settings import replaced
-from push_core.common.workers import Map
-from push_core.data.long_pushes import LongPushes
-from push_core.physics.slider import Slider
+from push_core.common import Map, replaced
+from push_core.data import LongPushes
+from push_core.physics import Slider
 from tqdm import tqdm
 
-from push_sim.fitting.actuator_fit import fitted_actuator
-from push_sim.fitting.world_fit import FITTED, Pushes, WorldFit, fitted_world
-from push_sim.measured.measured_data import MeasuredData
-from push_sim.measured.replay import Bar, Replay
-from push_sim.measured.robot_run import RobotRun
-from push_sim.measured.split import split
-from push_sim.settings.plant_settings import SimSettings
-from push_sim.validation.comparison import Validation, validation
+from push_sim.fitting import FITTED, Pushes, WorldFit, fitted_actuator, fitted_world
+from push_sim.measured import Bar, MeasuredData, Replay, RobotRun, split
+from push_sim.settings import SimSettings
+from push_sim.validation import Validation, validation
 
 
 @dataclass(frozen=True)

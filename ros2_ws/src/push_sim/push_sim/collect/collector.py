@@ -8,16 +8,16 @@ import math
 from types import TracebackType
 
 import numpy as np
-from push_core.common.errors import RunError
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import RunError
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 from push_sim.collect.push_design import PushDesign
 from push_sim.collect.push_sampling import Aim
 from push_sim.collect.short_push import Instant, push_row, short_push
-from push_sim.plant.sensor import Sensor
-from push_sim.settings.plant_settings import SimSettings
-from push_sim.worlds.quick_world import quick_world
+from push_sim.plant import Sensor
+from push_sim.settings import SimSettings
+from push_sim.worlds import quick_world
 
 _DRAWS = 100
 _ANYWHERE = np.array([0.2, 0.2, math.pi])

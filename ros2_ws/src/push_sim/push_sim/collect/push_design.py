@@ -3,12 +3,11 @@
 import math
 from dataclasses import dataclass
 
-from push_core.common.errors import InputError
-from push_core.common.settings import setting, validate
-from push_core.data.push_set import HALF_FACE
+from push_core.common import InputError, setting, validate
+from push_core.data import HALF_FACE
 
 from push_sim.collect.short_push import PushTiming
-from push_sim.worlds.quick_world import SUBSTEP
+from push_sim.worlds import SUBSTEP
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.die import five_of_a_die
+from push_core.common import InputError
+from push_core.data import five_of_a_die
 
 from push_sim.collect.push_design import PushDesign
 

@@ -8,10 +8,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array, to_body, wrap_angle
-from push_core.physics.slider import Slider
+from push_core.geometry import Array, to_body, wrap_angle
+from push_core.physics import Slider
 
-from push_sim.worlds.common.world import World
+from push_sim.worlds.common import World
 
 ORIGIN = np.zeros(3)
 

@@ -5,13 +5,11 @@ import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
-from push_core.common.command_line import Parser, run_command
-from push_core.common.errors import InputError
-from push_core.common.strict_json import json_text
-from push_core.physics.slider import Slider
+from push_core.common import InputError, Parser, json_text, run_command
+from push_core.physics import Slider
 
 from push_sim.commands.plant_speed import memory_growth, pushes_per_second, real_time_factor
-from push_sim.settings.plant_settings import ENGINES, PROFILES, profile
+from push_sim.settings import ENGINES, PROFILES, profile
 
 _MOST_RESETS = 10**7
 

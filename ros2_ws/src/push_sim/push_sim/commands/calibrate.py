@@ -5,19 +5,21 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common.atomic_file import check_place, write_atomically
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_core.common.workers import usable_cores, workers
-from push_core.physics.slider import Slider
+from push_core.common import (
+    Parser,
+    check_place,
+    json_text,
+    run_command,
+    usable_cores,
+    workers,
+    write_atomically,
+)
+from push_core.physics import Slider
 
-from push_sim.calibration.as_json import calibration_json
-from push_sim.calibration.as_table import calibration_table
-from push_sim.calibration.fit import calibration
-from push_sim.calibration.parameter_file import parameter_file
+from push_sim.calibration import calibration, calibration_json, calibration_table, parameter_file
 from push_sim.commands.command_checks import check_jobs, check_seed
-from push_sim.measured.measured_data import files_hash, read_measured_data
-from push_sim.settings.plant_settings import PROFILES, profile
+from push_sim.measured import files_hash, read_measured_data
+from push_sim.settings import PROFILES, profile
 
 EPILOG = """what happens:
 Friction and support are fitted to half of the short pushes and half of the long ones on the face,

@@ -9,20 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser, run_command
-from push_core.common.workers import workers
-from push_core.data.push_csv import write_pushes
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import Parser, check_place, run_command, workers
+from push_core.data import PushSet, write_pushes
+from push_core.geometry import Array
+from push_core.physics import Slider
 from tqdm import tqdm
 
-from push_sim.collect.collector import Collector
-from push_sim.collect.push_design import PushDesign
-from push_sim.collect.push_sampling import SAMPLINGS, Aim
+from push_sim.collect import SAMPLINGS, Aim, Collector, PushDesign
 from push_sim.commands.command_checks import check_jobs, check_range, check_seed
-from push_sim.settings.plant_settings import PROFILES, SimSettings, profile
+from push_sim.settings import PROFILES, SimSettings, profile
 
 EPILOG = """how the pushes are chosen (--sampling):
   uniform   drawn evenly over 95 % of the face and directions up to 84 degrees from the normal

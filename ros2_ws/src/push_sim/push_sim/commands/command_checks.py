@@ -1,6 +1,6 @@
 """What the commands of the plant refuse before they begin."""
 
-from push_core.common.errors import InputError
+from push_core.common import InputError
 
 MOST_JOBS = 256
 

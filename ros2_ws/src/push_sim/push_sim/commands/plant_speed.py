@@ -10,13 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from push_core.physics.slider import Slider
+from push_core.physics import Slider
 
-from push_sim.collect.collector import Collector
-from push_sim.collect.push_design import PushDesign
-from push_sim.collect.push_sampling import uniform
-from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import PERIOD, SimSettings
+from push_sim.collect import Collector, PushDesign, uniform
+from push_sim.plant import Plant
+from push_sim.settings import PERIOD, SimSettings
 
 _PERIODS = 200
 _PUSHES = 100

@@ -5,18 +5,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common.atomic_file import check_place
-from push_core.common.command_line import Parser, run_command
-from push_core.common.strict_json import json_text
-from push_core.common.workers import usable_cores, workers
-from push_core.physics.slider import Slider
+from push_core.common import Parser, check_place, json_text, run_command, usable_cores, workers
+from push_core.physics import Slider
 
 from push_sim.commands.command_checks import check_jobs
-from push_sim.measured.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
-from push_sim.settings.plant_settings import PROFILES, profile
-from push_sim.validation.as_json import as_json
-from push_sim.validation.as_table import validation_table
-from push_sim.validation.comparison import validation
+from push_sim.measured import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
+from push_sim.settings import PROFILES, profile
+from push_sim.validation import as_json, validation, validation_table
 
 EPILOG = f"""what is read from DIR, as far as it is there:
   {SHORT_FILES:28}short pushes; the simulator repeats each from its p_y and beta

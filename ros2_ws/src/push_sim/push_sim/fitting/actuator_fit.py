@@ -3,13 +3,12 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import ActuatorSettings
+from push_core.geometry import Array
+from push_core.physics import ActuatorSettings
 from scipy.optimize import least_squares
 
 from push_sim.fitting.bootstrap import bootstrap_deviation
-from push_sim.measured.robot_run import RobotRun
-from push_sim.measured.tip_replay import tip_gap
+from push_sim.measured import RobotRun, tip_gap
 
 _LARGEST = 0.5
 _SMALLEST = 1e-4

@@ -1,7 +1,7 @@
 """How far a least-squares fit would move with other measurements, by drawing from these."""
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 _DRAWS = 1000
 

@@ -8,16 +8,14 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from push_core.common.settings import replaced
-from push_core.data.accuracy import in_push_frame
-from push_core.data.long_pushes import LongPushes
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
+from push_core.common import replaced
+from push_core.data import LongPushes, PushSet, in_push_frame
+from push_core.geometry import Array
 from scipy.optimize import least_squares
 
 from push_sim.fitting.bootstrap import bootstrap_deviation
-from push_sim.measured.replay import Replay
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.measured import Replay
+from push_sim.settings import WorldSettings
 
 FITTED = ('friction_pusher', 'support_radius')
 _STEP = 0.04

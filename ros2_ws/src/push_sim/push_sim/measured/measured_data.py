@@ -6,11 +6,8 @@ from dataclasses import dataclass
 from functools import reduce
 from pathlib import Path
 
-from push_core.common.errors import InputError
-from push_core.data.long_push_csv import read_long_pushes
-from push_core.data.long_pushes import LongPushes
-from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
+from push_core.common import InputError
+from push_core.data import LongPushes, PushSet, read_long_pushes, read_pushes
 
 from push_sim.measured.robot_run import RobotRun, read_robot_run
 

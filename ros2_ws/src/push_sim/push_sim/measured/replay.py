@@ -6,18 +6,17 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-from push_core.common.workers import Map
-from push_core.data.long_pushes import LongPushes
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import Map
+from push_core.data import LongPushes, PushSet
+from push_core.geometry import Array
+from push_core.physics import Slider
 from tqdm import tqdm
 
 from push_sim.measured.replay_long import replay_long
 from push_sim.measured.replay_run import replay_run
 from push_sim.measured.replay_short import replay_short
 from push_sim.measured.run_windows import Windows
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 
 Bar: TypeAlias = 'tqdm[Any]'
 

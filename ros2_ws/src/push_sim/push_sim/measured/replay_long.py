@@ -7,12 +7,12 @@ The tip sets out 2 mm before its measured start: some of those lie inside the sq
 from contextlib import closing
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.common.world import World
-from push_sim.worlds.quick_world import SPEED, SUBSTEP, quick_world
+from push_sim.settings import WorldSettings
+from push_sim.worlds import SPEED, SUBSTEP, quick_world
+from push_sim.worlds.common import World
 
 _RETREAT = 0.002
 

@@ -3,13 +3,13 @@
 from contextlib import closing
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 from push_sim.measured.run_windows import INTERVAL, Windows
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.common.world import World
-from push_sim.worlds.quick_world import SUBSTEP, quick_world
+from push_sim.settings import WorldSettings
+from push_sim.worlds import SUBSTEP, quick_world
+from push_sim.worlds.common import World
 
 _SUBSTEPS = round(INTERVAL / SUBSTEP)
 

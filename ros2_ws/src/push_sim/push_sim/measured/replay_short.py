@@ -7,12 +7,12 @@ time step: pushing for up to 0.1 s before changes the mean NMSE by less than 0.0
 from contextlib import closing
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 
-from push_sim.collect.short_push import PushTiming, push_row, short_push
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.quick_world import SPEED, SUBSTEP, quick_world
+from push_sim.collect import PushTiming, push_row, short_push
+from push_sim.settings import WorldSettings
+from push_sim.worlds import SPEED, SUBSTEP, quick_world
 
 
 def replay_short(settings: WorldSettings, slider: Slider, inputs: Array, distance: float) -> Array:

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.data.csv_table import CsvTable, read_table
-from push_core.geometry.frames import Array
+from push_core.common import InputError
+from push_core.data import CsvTable, read_table
+from push_core.geometry import Array
 
 COLUMNS = (
     *('t_s', 'slider_x_m', 'slider_y_m', 'slider_theta_rad'),

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
 from push_sim.measured.robot_run import RobotRun
-from push_sim.worlds.quick_world import SUBSTEP
+from push_sim.worlds import SUBSTEP
 
 WINDOW = 0.5
 """Length of a window [s]."""

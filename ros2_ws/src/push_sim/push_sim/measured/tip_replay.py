@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import Actuator, ActuatorSettings
+from push_core.geometry import Array
+from push_core.physics import Actuator, ActuatorSettings
 
 from push_sim.measured.robot_run import RobotRun
 

@@ -3,11 +3,10 @@
 import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.geometry.frames import Array
-from push_core.geometry.quaternion import yaw_to_quaternion
+from push_core.geometry import Array, yaw_to_quaternion
 from push_msgs.msg import Perturbation as PerturbationMessage
 
-from push_sim.plant.perturbation import Disturbance
+from push_sim.plant import Disturbance
 
 FRAME = 'world'
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from push_node.stamps import to_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from push_sim.plant.plant import Observation, Plant
+from push_sim.plant import Observation, Plant
 
 _PATIENCE = 0.2
 

@@ -3,11 +3,11 @@
 from dataclasses import dataclass, fields
 
 import numpy as np
-from push_core.common.settings import nested, setting, validate
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import nested, setting, validate
+from push_core.geometry import Array
+from push_core.physics import Slider
 
-from push_sim.settings.plant_settings import PROFILES, SimSettings, profile
+from push_sim.settings import PROFILES, SimSettings, profile
 
 
 @dataclass(frozen=True)

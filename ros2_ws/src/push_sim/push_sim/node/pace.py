@@ -2,9 +2,9 @@
 
 from typing import Protocol
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 
-from push_sim.plant.plant import Observation
+from push_sim.plant import Observation
 
 
 class Pace(Protocol):

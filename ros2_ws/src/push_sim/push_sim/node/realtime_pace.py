@@ -3,11 +3,11 @@
 import time
 from collections.abc import Callable
 
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
-from push_sim.plant.plant import Observation, Plant
+from push_sim.plant import Observation, Plant
 
 _PERIOD = round(Plant.period * 1e9)
 _START = round(Plant.START * 1e9)

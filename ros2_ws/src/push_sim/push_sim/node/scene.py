@@ -2,8 +2,8 @@
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.geometry import Array
+from push_core.physics import Slider
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 

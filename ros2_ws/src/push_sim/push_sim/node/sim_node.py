@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from push_core.common.errors import InputError, PushError
+from push_core.common import InputError, PushError
 from push_msgs.msg import Perturbation as PerturbationMessage
 from push_msgs.srv import Perturb, Reset
 from push_node.diagnostics import Reporter
@@ -29,8 +29,7 @@ from push_sim.node.pace import Pace
 from push_sim.node.realtime_pace import RealtimePace
 from push_sim.node.scene import scene
 from push_sim.node.transforms import Transforms
-from push_sim.plant.perturbation import Kind, Perturbation
-from push_sim.plant.plant import Observation, Plant
+from push_sim.plant import Kind, Observation, Perturbation, Plant
 
 _SCENE_PERIOD = 0.05
 _HEALTH_PERIOD = 1.0

@@ -2,8 +2,7 @@
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
-from push_core.geometry.frames import Array
-from push_core.geometry.quaternion import yaw_to_quaternion
+from push_core.geometry import Array, yaw_to_quaternion
 from tf2_msgs.msg import TFMessage
 
 from push_sim.node.conversions import FRAME

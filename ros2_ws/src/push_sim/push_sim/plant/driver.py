@@ -4,8 +4,8 @@ import math
 from collections import deque
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import Actuator, ActuatorSettings, Pair
+from push_core.geometry import Array
+from push_core.physics import Actuator, ActuatorSettings, Pair
 
 
 class Driver:

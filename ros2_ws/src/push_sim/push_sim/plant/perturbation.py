@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array, rotation
+from push_core.common import InputError
+from push_core.geometry import Array, rotation
 
-from push_sim.settings.plant_settings import PerturbationSettings
-from push_sim.worlds.common.world import World
+from push_sim.settings import PerturbationSettings
+from push_sim.worlds.common import World
 
 
 class Kind(IntEnum):

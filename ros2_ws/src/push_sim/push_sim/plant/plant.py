@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array
-from push_core.physics.slider import Slider
+from push_core.common import InputError
+from push_core.geometry import Array
+from push_core.physics import Slider
 
 from push_sim.plant.driver import Driver
 from push_sim.plant.perturbation import Disturbance, Perturbation, Schedule, disturb
 from push_sim.plant.sensor import Observation, Sensor
-from push_sim.settings.plant_settings import PERIOD, SimSettings
-from push_sim.worlds.engines import make_world
+from push_sim.settings import PERIOD, SimSettings
+from push_sim.worlds import make_world
 
 __all__ = ['Observation', 'Plant', 'PlantSnapshot']
 

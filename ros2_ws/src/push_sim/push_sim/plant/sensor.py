@@ -9,10 +9,9 @@ from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.geometry.quaternion import grid_yaw
+from push_core.geometry import Array, grid_yaw
 
-from push_sim.settings.plant_settings import PERIOD, SensorSettings
+from push_sim.settings import PERIOD, SensorSettings
 
 FREEZE_DURATION = 0.1
 """How long [s] the pose stands still when it does."""

@@ -7,9 +7,8 @@ friction on the table and on the tip belongs to the world: the controller learns
 import math
 from dataclasses import dataclass, replace
 
-from push_core.common.errors import InputError
-from push_core.common.settings import nested, setting, validate
-from push_core.physics.actuator import ACTUATORS, ActuatorSettings
+from push_core.common import InputError, nested, setting, validate
+from push_core.physics import ACTUATORS, ActuatorSettings
 
 PERIOD = 0.01
 """Time [s] from one exposure to the next; commands are answered as often."""

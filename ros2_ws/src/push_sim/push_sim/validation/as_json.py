@@ -3,12 +3,11 @@
 from typing import Any
 
 import numpy as np
-from push_core.data.long_pushes import LongPushes
-from push_core.geometry.frames import Array, wrap_angle
-from push_core.physics.actuator import ActuatorSettings
+from push_core.data import LongPushes
+from push_core.geometry import Array, wrap_angle
+from push_core.physics import ActuatorSettings
 
-from push_sim.measured.robot_run import RobotRun
-from push_sim.measured.tip_replay import rms_coordinate, tip_gap
+from push_sim.measured import RobotRun, rms_coordinate, tip_gap
 from push_sim.validation.comparison import (
     LongComparison,
     RunComparison,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from push_sim.measured.measured_data import LONG_FILES, RUN_FILES, SHORT_FILES
+from push_sim.measured import LONG_FILES, RUN_FILES, SHORT_FILES
 
 _NAMES = {
     SHORT_FILES: 'short pushes',

@@ -2,22 +2,15 @@
 
 from dataclasses import dataclass
 
-from push_core.common.workers import Map
-from push_core.data.accuracy import Accuracy, accuracy
-from push_core.data.long_pushes import LongPushes
-from push_core.data.push_set import PushSet
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import ActuatorSettings
-from push_core.physics.slider import Slider
+from push_core.common import Map
+from push_core.data import Accuracy, LongPushes, PushSet, accuracy
+from push_core.geometry import Array
+from push_core.physics import ActuatorSettings, Slider
 from tqdm import tqdm
 
-from push_sim.fitting.actuator_fit import fitted_actuator
-from push_sim.measured.measured_data import MeasuredData
-from push_sim.measured.replay import Bar, Replay
-from push_sim.measured.robot_run import RobotRun
-from push_sim.measured.run_windows import Windows, windows
-from push_sim.measured.tip_replay import commanded_tip
-from push_sim.settings.plant_settings import SimSettings
+from push_sim.fitting import fitted_actuator
+from push_sim.measured import Bar, MeasuredData, Replay, RobotRun, Windows, commanded_tip, windows
+from push_sim.settings import SimSettings
 from push_sim.validation.ellipsoid import ELLIPSOID
 
 

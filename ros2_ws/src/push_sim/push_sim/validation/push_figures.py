@@ -5,8 +5,8 @@ import math
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
-from push_core.data.accuracy import READABLE, in_push_frame
-from push_core.geometry.frames import Array
+from push_core.data import READABLE, in_push_frame
+from push_core.geometry import Array
 from push_report.page import COLOURS
 
 from push_sim.validation.comparison import LongComparison, ShortComparison

@@ -3,7 +3,7 @@
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
-from push_core.geometry.frames import Array
+from push_core.geometry import Array
 from push_report.page import COLOURS
 
 from push_sim.validation.comparison import RunComparison

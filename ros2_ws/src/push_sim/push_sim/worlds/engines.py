@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from push_core.physics.slider import Slider
+from push_core.physics import Slider
 
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.bullet.bullet_world import BulletWorld
-from push_sim.worlds.common.world import World
-from push_sim.worlds.quasi_static.quasi_static_world import QuasiStaticWorld
+from push_sim.settings import WorldSettings
+from push_sim.worlds.bullet import BulletWorld
+from push_sim.worlds.common import World
+from push_sim.worlds.quasi_static import QuasiStaticWorld
 
 _ENGINES: dict[str, Callable[[WorldSettings, Slider], World]] = {
     'bullet': BulletWorld,

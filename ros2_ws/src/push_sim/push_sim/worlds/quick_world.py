@@ -6,10 +6,10 @@ times faster.
 
 from dataclasses import replace
 
-from push_core.physics.slider import Slider
+from push_core.physics import Slider
 
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.common.world import World
+from push_sim.settings import WorldSettings
+from push_sim.worlds.common import World
 from push_sim.worlds.engines import make_world
 
 SUBSTEP = 0.005

@@ -13,11 +13,9 @@
 
 from collections.abc import Sequence
 
-from push_core.physics.actuator import Pair
-from push_core.physics.limit_surface import GRAVITY
-from push_core.physics.slider import Slider
+from push_core.physics import GRAVITY, Pair, Slider
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bullet import pybullet
 
 HALF_HEIGHT = 0.0065

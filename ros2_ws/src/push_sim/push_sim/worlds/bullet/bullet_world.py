@@ -9,19 +9,16 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array, wrap_angle
-from push_core.physics.actuator import Pair
-from push_core.physics.limit_surface import GRAVITY
-from push_core.physics.slider import Slider
+from push_core.common import InputError
+from push_core.geometry import Array, wrap_angle
+from push_core.physics import GRAVITY, Pair, Slider
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.impact import DEEPEST
 from push_sim.worlds.bullet.scene import BulletScene
 from push_sim.worlds.bullet.snapshot import BulletSnapshot
 from push_sim.worlds.bullet.symmetry import PLAIN, Symmetry, symmetry
-from push_sim.worlds.common.axes import Axes
-from push_sim.worlds.common.outline import Outline, Pose
+from push_sim.worlds.common import Axes, Outline, Pose
 
 _FOLLOW_TIME = 0.01
 

@@ -4,9 +4,9 @@ PyBullet sees a contact only once the two overlap, so that a tip at half a metre
 half a millimetre deep before it is felt. A step that would do so is cut in two at the touch.
 """
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
-from push_sim.worlds.common.outline import Outline
+from push_sim.worlds.common import Outline
 
 DEEPEST = 1e-4
 """How deep [m] the tip may go before it is felt."""

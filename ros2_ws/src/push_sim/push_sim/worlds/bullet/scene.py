@@ -1,20 +1,15 @@
 """Slider, tip and table in a physics server, seen in the axes of the physics."""
 
-from push_core.geometry.quaternion import quaternion_to_yaw, yaw_to_quaternion
-from push_core.physics.actuator import Pair
-from push_core.physics.limit_surface import GRAVITY
-from push_core.physics.slider import Slider
+from push_core.geometry import quaternion_to_yaw, yaw_to_quaternion
+from push_core.physics import GRAVITY, Pair, Slider
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bodies import HALF_HEIGHT, make_object, make_tip, resting_height
 from push_sim.worlds.bullet.bullet import pybullet
 from push_sim.worlds.bullet.impact import part_until_touch
 from push_sim.worlds.bullet.snapshot import put_server_state, server_state
 from push_sim.worlds.bullet.table import UnevenTable, make_table
-from push_sim.worlds.common.axes import Axes
-from push_sim.worlds.common.outline import Outline
-from push_sim.worlds.common.support import feet
-from push_sim.worlds.common.table_friction import TableFriction
+from push_sim.worlds.common import Axes, Outline, TableFriction, feet
 
 _CONTACT_RANGE = 1e-3
 _USUAL_STEP = 1e-3

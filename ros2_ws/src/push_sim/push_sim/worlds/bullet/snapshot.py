@@ -8,7 +8,7 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
 from push_sim.worlds.bullet.bullet import pybullet
 from push_sim.worlds.bullet.symmetry import Symmetry

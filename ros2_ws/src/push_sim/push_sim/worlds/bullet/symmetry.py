@@ -7,9 +7,9 @@ Seen from the pushed face, on the half that is pushed, they are one and the same
 import math
 from typing import NamedTuple
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
-from push_sim.worlds.common.axes import Axes
+from push_sim.worlds.common import Axes
 
 _NOTHING = 1e-9
 

@@ -7,14 +7,12 @@ to that at the foot's place in the direction of its slip.
 
 from collections.abc import Sequence
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bodies import make_body
 from push_sim.worlds.bullet.bullet import pybullet
-from push_sim.worlds.common.axes import Axes
-from push_sim.worlds.common.support import QUADRANTS
-from push_sim.worlds.common.table_friction import TableFriction
+from push_sim.worlds.common import QUADRANTS, Axes, TableFriction
 
 _HALF = 0.5
 

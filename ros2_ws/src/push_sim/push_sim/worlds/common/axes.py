@@ -7,7 +7,7 @@ Plain numbers: at this size they are several times faster than arrays.
 
 import math
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
 
 def turned(vector: Pair, cos: float, sin: float) -> Pair:

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from itertools import accumulate
 from typing import TypeAlias
 
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
 from push_sim.worlds.common.axes import Axes
 

@@ -7,11 +7,10 @@ centre. Feet at that distance have the friction moment of a pressure that is spr
 import math
 
 import numpy as np
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import Pair
-from push_core.physics.limit_surface import uniform_pressure_radius
+from push_core.geometry import Array
+from push_core.physics import Pair, uniform_pressure_radius
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 
 QUADRANTS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 """Signs of x and y of the feet, in their order."""

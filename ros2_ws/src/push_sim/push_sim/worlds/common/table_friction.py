@@ -8,9 +8,9 @@ Source: Rahimi and Recht 2007. Along world x it may be stronger than along y, on
 import math
 
 import numpy as np
-from push_core.physics.actuator import Pair
+from push_core.physics import Pair
 
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings import WorldSettings
 
 _WAVES = 256
 _LEAST = 0.05

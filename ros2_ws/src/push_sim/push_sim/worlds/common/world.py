@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import Protocol
 
-from push_core.geometry.frames import Array
-from push_core.physics.actuator import Pair
+from push_core.geometry import Array
+from push_core.physics import Pair
 
 
 class World(Protocol):

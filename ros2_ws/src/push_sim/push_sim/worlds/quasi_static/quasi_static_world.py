@@ -11,16 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from push_core.common.errors import InputError
-from push_core.geometry.frames import Array, wrap_angle
-from push_core.physics.actuator import Pair
-from push_core.physics.limit_surface import GRAVITY
-from push_core.physics.slider import Slider
+from push_core.common import InputError
+from push_core.geometry import Array, wrap_angle
+from push_core.physics import GRAVITY, Pair, Slider
 
-from push_sim.settings.plant_settings import WorldSettings
-from push_sim.worlds.common.axes import Axes
-from push_sim.worlds.common.outline import Outline
-from push_sim.worlds.common.support import feet, friction_moment_radius
+from push_sim.settings import WorldSettings
+from push_sim.worlds.common import Axes, Outline, feet, friction_moment_radius
 from push_sim.worlds.quasi_static.rolling_contact import RollingContact, Touch
 
 _OVERLAP = 1e-12

@@ -10,8 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from push_core.physics.actuator import Pair
-from push_core.physics.point_contact import (
+from push_core.physics import (
+    Pair,
     mobility,
     sliding_force,
     slip_sign,
@@ -19,8 +19,7 @@ from push_core.physics.point_contact import (
     twist_of_force,
 )
 
-from push_sim.worlds.common.axes import turned
-from push_sim.worlds.common.outline import Outline
+from push_sim.worlds.common import Outline, turned
 
 _BISECTIONS = 16
 _FACE_TRAVEL = 0.25e-3
