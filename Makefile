@@ -21,10 +21,11 @@ test: setup  ## run every test: of each package, then of the cell as a whole
 bench: setup  ## the paper's experiments in process, beside the paper's numbers (about five minutes)
 	@scripts/in_env ros2 run push_bringup bench table
 
-lint: setup  ## check style, types, shell scripts and the Dockerfile
+lint: setup  ## check style, types, imports, shell scripts and the Dockerfile
 	@scripts/in_env ruff check .
 	@scripts/in_env ruff format --check .
 	@scripts/in_env mypy
+	@scripts/in_env lint-imports --no-logo --no-cache
 	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
 	@scripts/in_env hadolint docker/Dockerfile
 
