@@ -22,8 +22,6 @@ setup(
             'replay = push_bag.commands.replay:main',
             'live = push_bag.commands.live:main',
             'recover = push_bag.repair.recover:main',
-            'bench = push_bag.measure.recorder_bench:main',
-            'fuzz = push_bag.repair.fuzz:main',
             'export = push_bag.commands.export:main',
             'import-csv = push_bag.commands.import_csv:main',
         ],

@@ -4,11 +4,10 @@ import contextlib
 import random
 
 import pytest
+from fuzz_bag import DAMAGES, READERS
 from push_bag.commands import info
 from push_bag.commands import score as score_command
 from push_bag.file.reader import BagReader
-from push_bag.repair.damage import DAMAGES
-from push_bag.repair.fuzz import READINGS
 from push_core.common.errors import InputError
 
 
@@ -57,12 +56,12 @@ def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, caps
 
 
 @pytest.mark.parametrize('spoil', DAMAGES)
-@pytest.mark.parametrize('name', READINGS)
+@pytest.mark.parametrize('name', READERS)
 def test_damage_of_any_kind_gives_messages_or_an_input_error(tmp_path, content, spoil, name):
-    """`push_bag fuzz` does the same with more cases."""
+    """tests/tools/fuzz_bag.py does the same with more cases."""
     chance = random.Random(0)
     for number in range(10):
         path = tmp_path / f'damaged_{number}.mcap'
         path.write_bytes(spoil(bytearray(content), chance))
         with contextlib.suppress(InputError):
-            READINGS[name](path)
+            READERS[name](path)

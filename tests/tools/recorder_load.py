@@ -1,5 +1,6 @@
-"""A recorder in a process of its own, and a publisher that knows what it sent: for measuring."""
+"""The recorder as a child process, and a publisher that counts what it sends."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from typing import Any
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from push_bag.file import message_class
 from push_core.common import RunError
 from push_msgs.msg import Horizon
 from push_node.cell_topics import CELL_TOPICS
@@ -23,17 +25,14 @@ from std_msgs.msg import ByteMultiArray
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from push_bag.file import message_class
-
 READY_TIMEOUT = 30.0  # [s]
 ARRIVAL_TIMEOUT = 5.0  # [s]
-TICKS_PER_SECOND = 100.0  # of the kernel's accounting
-LOAD = QoSProfile(depth=100)
+MEGABYTE = 1024.0 * 1024.0  # [B]
 TICK_TOPICS = ('object_pose', 'pusher_pose', 'pusher_velocity_cmd', 'controller_state', '/tf')
 SLOW_TOPICS = ('horizon', 'scene')
 SLOW_TICKS = 5
 HORIZON = array('d', range(36))
-# those whose size is not that of an empty message
+# topics whose messages are larger than an empty one
 FILLED = {
     'horizon': Horizon(x=HORIZON, y=HORIZON, theta=HORIZON),
     'scene': MarkerArray(markers=[Marker(), Marker()]),
@@ -42,14 +41,14 @@ FILLED = {
 
 
 class RecorderProcess:
-    """The recorder node as a child process; ends with the block."""
+    """The recorder node as a child process; a context manager that kills it at the end."""
 
     def __init__(self, folder: Path, *parameters: str) -> None:
-        """Starts it.
+        """Starts the recorder.
 
         Args:
             folder: of the run; must not exist yet.
-            parameters: further ones, NAME:=VALUE.
+            parameters: of the node, as NAME:=VALUE.
         """
         words = [word for each in (f'folder:={folder}', *parameters) for word in ('-p', each)]
         command = [sys.executable, '-m', 'push_bag.record.recorder', '--ros-args', *words]
@@ -67,32 +66,32 @@ class RecorderProcess:
         self.kill()
 
     def kill(self) -> None:
-        """Ends it at once, as if the power had failed."""
+        """Ends the recorder with SIGKILL."""
         self._process.kill()
         self._process.wait()
         if self._process.stderr is not None:
             self._process.stderr.close()
 
     def stop(self) -> str:
-        """Asks it to end; gives its last words."""
+        """Ends the recorder with SIGINT; returns what it wrote to standard error."""
         self._process.send_signal(signal.SIGINT)
         return self._process.communicate(timeout=READY_TIMEOUT)[1].strip()
 
     @property
     def processor_time(self) -> float:
-        """Processor time [s] that it took so far."""
+        """Processor time [s] used so far, by user and system."""
         fields = Path(f'/proc/{self._process.pid}/stat').read_text().rpartition(')')[2].split()
-        return (int(fields[11]) + int(fields[12])) / TICKS_PER_SECOND
+        return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
 
     @property
     def memory(self) -> float:
-        """Memory [MB] that it holds."""
-        status = Path(f'/proc/{self._process.pid}/status').read_text()
-        return int(status.split('VmRSS:')[1].split()[0]) / 1024.0
+        """Resident memory [MB]."""
+        pages = Path(f'/proc/{self._process.pid}/statm').read_text().split()[1]
+        return int(pages) * os.sysconf('SC_PAGE_SIZE') / MEGABYTE
 
 
 class Publisher:
-    """Publishes the topics of a cell, and one of raw bytes."""
+    """Publishes the topics of a cell, and `load` with messages of 1 KB."""
 
     def __init__(self, node: Node) -> None:
         self._outlets: dict[str, Any] = {
@@ -110,28 +109,28 @@ class Publisher:
         self.sent_at: dict[str, list[int]] = {name: [] for name in self._outlets}
 
     def wait(self) -> None:
-        """Waits until somebody hears every topic.
+        """Waits until every topic has a subscriber.
 
         Raises:
-            RunError: nobody does.
+            RunError: a topic has none after READY_TIMEOUT.
         """
         end = time.monotonic() + READY_TIMEOUT
         while not all(each.get_subscription_count() for each in self._outlets.values()):
             if time.monotonic() > end:
-                raise RunError('the recorder does not hear every topic')
+                raise RunError('the recorder does not subscribe to every topic')
             time.sleep(0.02)
 
     def tick(self, number: int) -> None:
-        """What a cell publishes in one tick."""
+        """Publishes the messages of one tick of the cell."""
         for name in TICK_TOPICS + (SLOW_TOPICS if number % SLOW_TICKS == 0 else ()):
             self.send(name, FILLED.get(name) or self._outlets[name].msg_type())
 
     def load(self, _number: int) -> None:
-        """One message of 1 KB."""
+        """Publishes one message of 1 KB."""
         self.send('load', self._payload)
 
-    def wait_until_heard(self) -> None:
-        """Waits until everything that was sent is lost or has come; else its end would be cut."""
+    def wait_until_acknowledged(self) -> None:
+        """Waits until the subscribers acknowledged all messages, at most ARRIVAL_TIMEOUT."""
         for each in self._outlets.values():
             each.wait_for_all_acked(Duration(seconds=ARRIVAL_TIMEOUT))
 
@@ -143,7 +142,7 @@ class Publisher:
 
 
 def at_rate(work: Callable[[int], None], rate: float, seconds: float) -> float:
-    """Calls with 0, 1, 2 … at a rate [1/s] for a time [s]; gives the rate that it reached."""
+    """Calls `work` with 0, 1, 2 … at a rate [1/s] for a time [s]; returns the rate reached."""
     start, number = time.monotonic(), 0
     while (elapsed := time.monotonic() - start) < seconds:
         for each in range(number, int(elapsed * rate)):
@@ -155,7 +154,7 @@ def at_rate(work: Callable[[int], None], rate: float, seconds: float) -> float:
 
 @contextmanager
 def new_publisher() -> Iterator[Publisher]:
-    """A publisher that has not met any recorder yet."""
+    """A publisher on a node of its own."""
     rclpy.init(args=[])
     node = rclpy.create_node('load')
     try:

@@ -1,4 +1,4 @@
-"""`push_bag bench`: what the recorder takes, keeps and loses, measured."""
+"""Measures the recorder: processor time and memory, messages lost, and what a kill loses."""
 
 import argparse
 import random
@@ -7,19 +7,19 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common import Parser, run_command
-from tqdm import tqdm
-
 from push_bag.file import BagReader, Traffic
-from push_bag.measure.recorder_load import Publisher, RecorderProcess, at_rate, new_publisher
 from push_bag.repair.recover import recover
+from push_core.common import Parser, run_command
+from recorder_load import Publisher, RecorderProcess, at_rate, new_publisher
+from tqdm import tqdm
 
 CELL_RATE = 100.0  # [1/s] ticks
 EPILOG = """
-Three measurements over real DDS, on this machine as busy as it is:
-  cell    processor time and memory at the cell's own rate, and messages lost
+Three measurements over DDS; other load on the machine counts:
+  cell    processor time and memory at the rates of the cell, and messages lost
   load    messages of 1 KB at a high rate: published, recorded, and counted as lost
-  kills   SIGKILL at random moments: how far back the recovered bag ends, in the worst case
+  kills   SIGKILL at random times: how long before the kill the recovered bags end, at most
+Example: scripts/in_env python tests/tools/bench_recorder.py --seconds 10 --kills 5
 """
 
 
@@ -29,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    parser = Parser('Measures the recorder.', EPILOG)
+    parser = Parser(str(__doc__), EPILOG)
     parser.add_argument('--seconds', type=float, default=60.0, help='of cell and load; default 60')
     parser.add_argument('--rate', type=float, default=3000.0, help='of load [1/s]; default 3000')
     parser.add_argument('--kills', type=int, default=20, help='default 20')
@@ -39,14 +39,14 @@ def _parser() -> Parser:
 def _work(arguments: argparse.Namespace) -> None:
     with tempfile.TemporaryDirectory(prefix='push_bench_') as scratch:
         with new_publisher() as publisher:
-            _say(_cell(publisher, Path(scratch) / 'cell', arguments.seconds))
+            _write(_cell(publisher, Path(scratch) / 'cell', arguments.seconds))
         with new_publisher() as publisher:
-            _say(_load(publisher, Path(scratch) / 'load', arguments))
+            _write(_load(publisher, Path(scratch) / 'load', arguments))
         if arguments.kills:
-            _say(_kills(Path(scratch), arguments.kills))
+            _write(_kills(Path(scratch), arguments.kills))
 
 
-def _say(text: str) -> None:
+def _write(text: str) -> None:
     sys.stdout.write(text + '\n')
     sys.stdout.flush()
 
@@ -59,15 +59,15 @@ def _cell(publisher: Publisher, folder: Path, seconds: float) -> str:
         at_rate(publisher.tick, CELL_RATE, seconds)
         share = (recorder.processor_time - before) / seconds
         grown = recorder.memory - memory
-        words = recorder.stop()
-    return f'cell: {100 * share:.1f} % of a core, {memory:.0f} MB, {grown:+.1f} MB; {words}'
+        summary = recorder.stop()
+    return f'cell: {100 * share:.1f} % of a core, {memory:.0f} MB, {grown:+.1f} MB; {summary}'
 
 
 def _load(publisher: Publisher, folder: Path, arguments: argparse.Namespace) -> str:
     with RecorderProcess(folder, 'topics:=load') as recorder:
         publisher.wait()
         rate = at_rate(publisher.load, arguments.rate, arguments.seconds)
-        publisher.wait_until_heard()
+        publisher.wait_until_acknowledged()
         recorder.stop()
     seen = Traffic()
     for record in BagReader(folder).records(['/load']):
