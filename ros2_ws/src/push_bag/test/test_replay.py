@@ -7,7 +7,7 @@ import rclpy
 from push_bag.commands.replay import main
 from push_bag.file.qos_text import qos_profile, qos_text
 from push_bag.file.reader import BagReader, Record
-from push_bag.file.topic import Topic
+from push_bag.file.topic_registry import Topic
 from push_bag.record.raw_subscription import RawSubscription
 from push_bag.replay.playback import Publishers, in_order, play, skipped_to
 from push_bag.replay.survey import survey

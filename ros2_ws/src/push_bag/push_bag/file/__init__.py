@@ -21,7 +21,7 @@ from push_bag.file.message_types import (
 )
 from push_bag.file.qos_text import qos_profile, qos_text
 from push_bag.file.reader import BagReader, Record, bag_file
-from push_bag.file.topic import Topic
+from push_bag.file.topic_registry import Topic
 from push_bag.file.traffic import Traffic, lost_text
 from push_bag.file.whole_bag import whole_bag
 from push_bag.file.yaml_text import parameter_value

@@ -2,7 +2,6 @@
 
 import json
 import struct
-import zlib
 from collections.abc import Callable
 from io import BytesIO
 
@@ -13,8 +12,7 @@ from mcap.records import Attachment, Channel, Metadata, Schema, Statistics
 
 from push_bag.file.bag_writer import COUNTS_RECORD, FACTS_RECORD
 from push_bag.file.mcap_stream import DamagedError, RawRecord
-from push_bag.file.topic import Topic
-from push_bag.file.topic_registry import TOPIC_RECORD
+from push_bag.file.topic_registry import Topic
 
 
 class BagContents:
@@ -22,7 +20,6 @@ class BagContents:
 
     Attributes:
         topics: by the number of their channel.
-        spare_topics: the same, without schema, from the copies outside the chunks.
         facts: of the run.
         attachments: whole files by name.
         finished: whether the file came to its proper end.
@@ -33,7 +30,6 @@ class BagContents:
 
     def __init__(self) -> None:
         self.topics: dict[int, Topic] = {}
-        self.spare_topics: dict[int, Topic] = {}
         self.facts: dict[str, str] = {}
         self.attachments: dict[str, bytes] = {}
         self.finished = False
@@ -87,8 +83,6 @@ class BagContents:
             self.facts = dict(metadata.metadata)
         elif metadata.name == COUNTS_RECORD:
             self._note_counts(metadata.metadata)
-        elif metadata.name == TOPIC_RECORD:
-            self._note_spare_topic(metadata.metadata)
 
     def _note_counts(self, counts: dict[str, str]) -> None:
         told = {topic: json.loads(text)['middleware_lost'] for topic, text in counts.items()}
@@ -96,13 +90,6 @@ class BagContents:
             topic: int(lost) for topic, lost in told.items() if lost is not None
         }
         self.counts = dict(counts)
-
-    def _note_spare_topic(self, record: dict[str, str]) -> None:
-        if str(zlib.crc32(record['topic'].encode())) != record['crc32']:
-            raise ValueError('its checksum does not fit')
-        copy = json.loads(record['topic'])
-        qos, type_hash = copy['offered_qos_profiles'], copy['topic_type_hash']
-        self.spare_topics[int(copy['id'])] = Topic(copy['name'], copy['type'], qos, type_hash)
 
     def _note_attachment(self, body: ReadDataStream) -> None:
         attachment = Attachment.read(body)

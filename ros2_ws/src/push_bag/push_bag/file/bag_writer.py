@@ -11,8 +11,7 @@ from push_core.common import InputError, RunError
 
 from push_bag.file.message_types import Definition, installed_definition
 from push_bag.file.rosbag2_metadata import Span, write_metadata
-from push_bag.file.topic import Topic
-from push_bag.file.topic_registry import TopicRegistry
+from push_bag.file.topic_registry import Topic, TopicRegistry
 
 CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
 FACTS_RECORD = 'run'

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from push_core.common import InputError
 
-SEPARATOR = '=' * 80
+SEPARATOR = '=' * 80  # between the definitions in a schema
 DTYPES = {
     'bool': 'u1',
     'byte': 'u1',

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 
 from push_core.common import InputError
 
-SEPARATOR = '=' * 80
+from push_bag.file.cdr_layout import SEPARATOR
+
 INTEGERS = {f'{sign}int{bits}' for sign in ('', 'u') for bits in (8, 16, 32, 64)}
 PRIMITIVES = INTEGERS | {'bool', 'byte', 'char', 'float32', 'float64', 'string', 'wstring'}
 

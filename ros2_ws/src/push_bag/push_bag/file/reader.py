@@ -19,7 +19,7 @@ from push_bag.file.mcap_stream import (
     top_records,
 )
 from push_bag.file.message_types import message_class
-from push_bag.file.topic import Topic
+from push_bag.file.topic_registry import Topic
 
 
 class Record(NamedTuple):

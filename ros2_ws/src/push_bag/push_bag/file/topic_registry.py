@@ -1,19 +1,34 @@
-"""The topics of a bag that is being written: their channels, schemas and second copies."""
+"""The topics of a bag, and the channels and schemas of a bag that is being written."""
 
-import json
-import zlib
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from mcap.writer import Writer
 
 from push_bag.file.rosbag2_metadata import TopicSummary
-from push_bag.file.topic import Topic
 
-TOPIC_RECORD = 'topic'  # a second copy, for whoever has to do without the first chunk
+
+@dataclass(frozen=True)
+class Topic:
+    """A topic as the bag describes it.
+
+    Attributes:
+        name: full name.
+        type_name: in three parts.
+        qos: the offered profiles as rosbag2's YAML list.
+        type_hash: `RIHS01_…`, empty where the bag has none.
+        schema: the type's definition, with all that it is made of.
+    """
+
+    name: str
+    type_name: str
+    qos: str
+    type_hash: str
+    schema: str = ''
 
 
 class TopicRegistry:
-    """Makes topics known to a file, each once."""
+    """Writes each topic to a file once."""
 
     def __init__(self, writer: Writer) -> None:
         self._writer = writer
@@ -22,24 +37,25 @@ class TopicRegistry:
         self._schemas: dict[str, int] = {}
 
     def add(self, topic: Topic) -> None:
-        """Writes down a topic; the copy stands outside the chunks and has a checksum.
+        """Writes the channel of a topic, and its schema unless the file has it.
 
         Raises:
             OSError: the file cannot be written.
         """
-        told = {'offered_qos_profiles': topic.qos, 'topic_type_hash': topic.type_hash}
-        number = self._writer.register_channel(topic.name, 'cdr', self._schema(topic), told)
-        copy = json.dumps({'id': number, 'name': topic.name, 'type': topic.type_name, **told})
-        checksum = str(zlib.crc32(copy.encode()))
-        self._writer.add_metadata(TOPIC_RECORD, {'topic': copy, 'crc32': checksum})
-        self._topics[topic.name], self._channels[topic.name] = topic, number
+        self._topics[topic.name] = topic
+        self._channels[topic.name] = self._writer.register_channel(
+            topic.name,
+            'cdr',
+            self._schema(topic),
+            {'offered_qos_profiles': topic.qos, 'topic_type_hash': topic.type_hash},
+        )
 
     def channel(self, name: str) -> int:
         """Number of a topic's channel."""
         return self._channels[name]
 
     def summaries(self, counts: Mapping[str, int]) -> list[TopicSummary]:
-        """What `metadata.yaml` tells of the topics.
+        """The topics as `metadata.yaml` lists them.
 
         Args:
             counts: messages by topic.

@@ -41,7 +41,7 @@ class Traffic:
             self.last_ns = log_ns
         if sequence:
             self.numbered = True
-            self._gaps.saw(sequence)
+            self._gaps.add(sequence)
 
     @property
     def lost(self) -> int:

@@ -5,7 +5,6 @@ import contextlib
 import mmap
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from mcap.opcode import Opcode
@@ -22,7 +21,6 @@ from push_bag.file import (
     Topic,
     bag_file,
     chunk_records,
-    installed_definition,
     message,
     qos_profile,
     whole_bag,
@@ -75,9 +73,9 @@ def _state(contents: BagContents) -> str:
 
 
 def _contents(file: mmap.mmap) -> BagContents:
-    """What all whole parts say of the bag, the more trustworthy ones first.
+    """Topics, facts and attachments of all whole parts.
 
-    Chunks and the copies of the topics have checksums; what else is said of topics has none.
+    Topics from chunks take precedence: chunks have checksums, the summary's records have none.
     """
     contents, unverified = BagContents(), []
     for part in whole_parts(file):
@@ -85,9 +83,6 @@ def _contents(file: mmap.mmap) -> BagContents:
             unverified.append(part)
         else:
             _note(contents, part)
-    for number, spare in contents.spare_topics.items():
-        if number not in contents.topics:
-            contents.topics[number] = _defined(spare)
     for part in unverified:
         _note(contents, part)
     return contents
@@ -98,15 +93,6 @@ def _note(contents: BagContents, part: WholeChunk | RawRecord | Damage) -> None:
         if isinstance(record, RawRecord):
             with contextlib.suppress(DamagedError):
                 contents.note(record)
-
-
-def _defined(spare: Topic) -> Topic:
-    """A topic whose definition is lost with its first chunk, with the installed one.
-
-    Raises:
-        InputError: the type is not installed.
-    """
-    return replace(spare, schema=installed_definition(spare.type_name).schema)
 
 
 def _copied(file: mmap.mmap, contents: BagContents, writer: BagWriter) -> Recovered:
