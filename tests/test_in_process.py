@@ -10,11 +10,11 @@ from push_bringup.in_process.loop import InProcessCell
 from push_bringup.setup.cell_parameters import CellParameters
 from push_gp.models.gp_model import GpModel
 from push_gp.server.server_settings import ServerSettings
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 from push_mpc.loop.controller import Mode, Tick
 from push_mpc.plan.planning import planned
 from push_mpc.settings.node_settings import mpc_settings
-from push_sim.commands.collect import collect
+from push_sim.collect import collect_pushes
 from push_sim.node.node_settings import node_settings
 from push_sim.plant.plant import Observation
 
@@ -24,7 +24,7 @@ Lap = Callable[..., tuple[bool, float]]
 @pytest.fixture(scope='module')
 def model() -> GpModel:
     """What 200 pushes in the simulator teach."""
-    return learned(collect(200, 0))
+    return train(collect_pushes(200, 0))
 
 
 @pytest.fixture

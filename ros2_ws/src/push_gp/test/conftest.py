@@ -13,7 +13,7 @@ from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_gp.models.gp_model import GpModel
 from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 DISTANCE = 0.004
 NOISE = [1e-4, 1e-4, 4e-3]
@@ -46,7 +46,7 @@ def more_pushes() -> PushSet:
 
 @pytest.fixture(scope='session')
 def model(pushes: PushSet) -> GpModel:
-    return learned(pushes)
+    return train(pushes)
 
 
 @pytest.fixture(scope='session')

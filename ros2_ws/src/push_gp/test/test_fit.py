@@ -6,8 +6,8 @@ from push_gp.regression.kernel import correlation, squared_differences
 from push_gp.regression.likelihood import MarginalLikelihood
 from push_gp.training import fit as fit_module
 from push_gp.training.fit import fit
-from push_gp.training.learn import learned
 from push_gp.training.prior import OVER_ZERO, priors
+from push_gp.training.train import train
 from threadpoolctl import threadpool_limits
 
 TRUE = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
@@ -48,7 +48,7 @@ def test_stages_end_where_one_go_ends(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize('count', [1, 2, 5])
 @pytest.mark.parametrize('mean', ['zero', 'analytical'])
 def test_a_handful_of_pushes_gives_a_sane_model(pushes: PushSet, count: int, mean: str) -> None:
-    info = learned(pushes.take(np.arange(count)), mean).info
+    info = train(pushes.take(np.arange(count)), mean).info
     assert (info.lengthscales[:, 0] > 0.005).all()
     assert (info.lengthscales[:, 0] < 0.2).all()
     assert (info.signal_std < [5e-3, 5e-3, 0.1]).all()
@@ -58,17 +58,17 @@ def test_a_handful_of_pushes_gives_a_sane_model(pushes: PushSet, count: int, mea
 
 def test_repeated_pushes_are_no_trouble(pushes: PushSet) -> None:
     rows = np.zeros(20, dtype=np.intp)
-    mean, _ = learned(pushes.take(rows)).evaluate(pushes.p_y[:1], pushes.beta[:1])
+    mean, _ = train(pushes.take(rows)).evaluate(pushes.p_y[:1], pushes.beta[:1])
     assert np.allclose(mean, pushes.displacement[:1], rtol=0.1, atol=1e-4)
 
 
 def test_the_same_pushes_give_the_same_model_bit_for_bit(pushes: PushSet) -> None:
-    assert learned(pushes).info.model_hash == learned(pushes).info.model_hash
+    assert train(pushes).info.model_hash == train(pushes).info.model_hash
 
 
 def test_the_number_of_threads_changes_no_bit(many_pushes: PushSet) -> None:
     hashes = set()
     for threads in (1, 2):
         with threadpool_limits(threads, 'blas'):
-            hashes.add(learned(many_pushes).info.model_hash)
+            hashes.add(train(many_pushes).info.model_hash)
     assert len(hashes) == 1

@@ -14,7 +14,7 @@ from push_gp.evaluation.evaluation import rollout_evaluation
 from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.model import PushModel
 from push_gp.models.sampling import nested_rows, subset_rows
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 
 def split(measured: PushSet, rows: np.ndarray) -> tuple[PushSet, PushSet]:
@@ -32,7 +32,7 @@ def test_the_gp_tells_held_out_pushes_as_well_as_published_and_knows_how_well(
     measured: PushSet, points: int, worst: float
 ) -> None:
     training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
-    model = learned(training)
+    model = train(training)
     assert push_frame_nmse(model, rest) <= worst
     told = calibration(model, rest)
     assert told is not None
@@ -57,7 +57,7 @@ def test_over_the_cone_a_handful_of_pushes_is_enough(
     found = []
     for seed in range(5):
         training, rest = split(measured, nested_rows(measured, points, seed))
-        found.append(push_frame_nmse(learned(training, 'analytical'), rest))
+        found.append(push_frame_nmse(train(training, 'analytical'), rest))
     assert np.median(found) <= median
 
 
@@ -65,7 +65,7 @@ def test_rolled_out_along_50_mm_it_ends_as_near_as_published(measured: PushSet) 
     beside_the_project = Path(__file__).resolve().parents[5] / 'shared' / 'data'
     folder = Path(os.environ.get('PUSH_DATA_DIR', beside_the_project))
     pushes = read_long_pushes(folder / 'square_50mm_pushes_abs_10mms.csv')
-    model = learned(measured.take(subset_rows(measured, 'subset_200')))
+    model = train(measured.take(subset_rows(measured, 'subset_200')))
     found = rollout_evaluation(model, pushes).as_json()['rollout']['on_face']
     assert found['n'] == 297
     assert 3.0 < found['mean_mm'] < 4.0

@@ -15,7 +15,7 @@ from push_gp.models.gp_model import GpModel
 from push_gp.models.model_file import load_model, save_model
 from push_gp.models.model_format import VERSION
 from push_gp.models.sealed_archive import read_sealed, write_sealed
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 
 @pytest.fixture(scope='module')
@@ -29,7 +29,7 @@ def path(model: GpModel, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_loaded_model_answers_bit_for_bit_as_the_saved_one(
     pushes: PushSet, mean: str, queries: tuple[np.ndarray, np.ndarray], tmp_path: Path
 ) -> None:
-    model = learned(pushes, mean)
+    model = train(pushes, mean)
     save_model(tmp_path / 'm.npz', model)
     loaded = load_model(tmp_path / 'm.npz')
     for ours, theirs in zip(loaded.evaluate(*queries), model.evaluate(*queries), strict=True):

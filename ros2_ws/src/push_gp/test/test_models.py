@@ -11,7 +11,7 @@ from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ConeMean, ZeroMean
 from push_gp.models.model import PushModel
 from push_gp.training.fit_cone import fitted_cone
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 Queries = tuple[np.ndarray, np.ndarray]
 
@@ -20,7 +20,7 @@ Queries = tuple[np.ndarray, np.ndarray]
 def any_model(request: pytest.FixtureRequest, model: GpModel, pushes: PushSet) -> PushModel:
     if request.param == 'gp':
         return model
-    return AnalyticalModel() if request.param == 'cone' else learned(pushes, 'analytical')
+    return AnalyticalModel() if request.param == 'cone' else train(pushes, 'analytical')
 
 
 def test_the_jacobian_is_that_of_central_differences(

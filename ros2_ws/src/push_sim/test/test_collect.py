@@ -9,9 +9,10 @@ from push_core.data.push_csv import read_pushes
 from push_core.data.push_set import PushSet
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
+from push_sim.collect.collection import Collection, collect_pushes, collected
 from push_sim.collect.push_design import PushDesign
 from push_sim.collect.short_push import short_push
-from push_sim.commands.collect import Asked, collect, collected, main
+from push_sim.commands.collect import main
 from push_sim.settings.plant_settings import profile
 from push_sim.worlds.bullet.bullet_world import BulletWorld
 from push_sim.worlds.quick_world import quick_world
@@ -27,14 +28,14 @@ def test_the_same_seed_collects_the_same_file(tmp_path: Path) -> None:
 
 
 def test_a_longer_collection_begins_like_a_shorter_one() -> None:
-    short, long = collect(5, seed=1), collect(10, seed=1)
+    short, long = collect_pushes(5, seed=1), collect_pushes(10, seed=1)
     assert np.array_equal(long.displacement[:5], short.displacement)
-    assert not np.array_equal(collect(5, seed=2).p_y, short.p_y)
+    assert not np.array_equal(collect_pushes(5, seed=2).p_y, short.p_y)
 
 
 @pytest.fixture(scope='module')
 def pushes() -> PushSet:
-    return collect(120, seed=0)
+    return collect_pushes(120, seed=0)
 
 
 def test_the_pushes_cover_face_and_directions(pushes: PushSet, slider: Slider) -> None:
@@ -54,7 +55,7 @@ def test_the_pushes_are_those_of_the_motion_cone_but_for_feet_and_noise(pushes: 
 
 
 def test_the_cameras_noise_is_in_the_rows(pushes: PushSet) -> None:
-    difference = pushes.displacement - collect(len(pushes), 0, 'ideal').displacement
+    difference = pushes.displacement - collect_pushes(len(pushes), 0, 'ideal').displacement
     expected = profile('irb120').sensor.position_noise * math.sqrt(2.0)
     # what the noise of the start's heading adds is a hundred times less
     assert np.median(np.abs(difference[:, 0])) == pytest.approx(0.6745 * expected, rel=0.3)
@@ -97,7 +98,7 @@ def test_a_wrong_command_is_one_line_and_status_2(
 
 def test_a_grid_covers_face_and_directions_evenly(slider: Slider) -> None:
     design = PushDesign()
-    pushes = collect(9, 0, 'ideal', sampling='grid')
+    pushes = collect_pushes(9, 0, 'ideal', sampling='grid')
     # settling shifts contact and direction by a little
     beta = pushes.beta.reshape(3, 3).mean(axis=0)
     assert np.diff(beta) == pytest.approx([2.0 * design.steepest / 3.0] * 2, abs=0.02)
@@ -107,7 +108,7 @@ def test_a_grid_covers_face_and_directions_evenly(slider: Slider) -> None:
 
 
 def test_the_five_of_a_die_come_in_turn(slider: Slider) -> None:
-    pushes = collect(10, 0, 'ideal', sampling='die')
+    pushes = collect_pushes(10, 0, 'ideal', sampling='die')
     expected = np.tile(five_of_a_die(slider.side / 2.0), (2, 1))
     assert np.all(np.abs(pushes.inputs - expected) < [0.8e-3, 0.015])
     assert pushes.displacement[:5] == pytest.approx(pushes.displacement[5:], abs=1e-9)
@@ -122,11 +123,11 @@ def test_pushes_longer_than_the_face_are_refused(capsys) -> None:
 def test_a_collection_is_written_as_it_was_made(tmp_path: Path) -> None:
     output = tmp_path / 'pushes.csv'
     assert main(['--pushes', '4', '--seed', '7', '-o', str(output)]) == 0
-    assert np.array_equal(read_pushes(output).displacement, collect(4, 7).displacement)
+    assert np.array_equal(read_pushes(output).displacement, collect_pushes(4, 7).displacement)
 
 
 def test_pushes_and_what_the_world_draws_do_not_depend_on_the_number_of_processes() -> None:
     rough = replace(profile('irb120').world, friction_variation=0.2, pressure='random')
-    asked = Asked(12, 5, replace(profile('irb120'), world=rough), PushDesign(), 'uniform')
+    asked = Collection(12, 5, replace(profile('irb120'), world=rough), PushDesign(), 'uniform')
     rows = [np.array(list(collected(asked, jobs))) for jobs in (1, 2)]
     assert np.array_equal(*rows)

@@ -13,8 +13,8 @@ import numpy as np
 from push_core.common import InputError, Parser, json_text, run_command, write_atomically
 from push_core.data import PushSet, read_pushes
 from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, die_rows, nested_rows, save_model
-from push_gp.training.learn import learned
-from push_sim.commands.collect import collect
+from push_gp.training.train import train
+from push_sim.collect import collect_pushes
 from push_sim.settings import PROFILES
 from tqdm import tqdm
 
@@ -133,7 +133,7 @@ def work(arguments: argparse.Namespace) -> None:
 def _pushes(arguments: argparse.Namespace) -> PushSet:
     if arguments.data is not None:
         return read_pushes(arguments.data)
-    return collect(COLLECTED, 0, arguments.profile, jobs=arguments.jobs)
+    return collect_pushes(COLLECTED, 0, arguments.profile, jobs=arguments.jobs)
 
 
 def _choices(arguments: argparse.Namespace, available: int) -> Iterator[Choice]:
@@ -168,7 +168,7 @@ def _trained(
 
 def _train(work: tuple[Path, PushSet, str]) -> None:
     file, pushes, mean = work
-    save_model(file, learned(pushes, mean))
+    save_model(file, train(pushes, mean))
 
 
 def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:

@@ -14,7 +14,7 @@ from push_core.data import HALF_FACE, PushSet
 from push_core.geometry import Array
 from push_gp.regression import Hyperparameters, MarginalLikelihood
 from push_gp.training import OVER_ZERO, priors
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 Predict: TypeAlias = Callable[[Array], tuple[Array, Array]]
 """From (m, 2) queries to mean (m, 3) and Jacobian (m, 3, 2)."""
@@ -47,7 +47,7 @@ class Fitted:
 
 def fit_ours(pushes: PushSet) -> Fitted:
     """push_gp."""
-    model = learned(pushes)
+    model = train(pushes)
     return Fitted(
         [process.hyperparameters for process in model.processes],
         lambda queries: model.evaluate(*queries.T),

@@ -29,10 +29,10 @@ def default_model() -> Path:
 def _learn(path: Path) -> None:
     # the physics and the optimiser take a second to import: only who learns waits for them
     from push_gp.models.model_file import save_model  # noqa: PLC0415
-    from push_gp.training.learn import learned  # noqa: PLC0415
-    from push_sim.commands.collect import collect  # noqa: PLC0415
+    from push_gp.training.train import train  # noqa: PLC0415
+    from push_sim.collect import collect_pushes  # noqa: PLC0415
 
-    save_model(path, learned(collect(POINTS, SEED)))
+    save_model(path, train(collect_pushes(POINTS, SEED)))
 
 
 def _plant() -> str:

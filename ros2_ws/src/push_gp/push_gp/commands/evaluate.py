@@ -10,7 +10,7 @@ from push_core.common import Parser, check_place, json_text, run_command
 from push_core.data import OUTPUTS, READABLE, holds_long_pushes, read_long_pushes, read_pushes
 from push_core.geometry import Array
 
-from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluation, rollout_evaluation
+from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluate, rollout_evaluation
 from push_gp.models import PushModel, model_named
 
 
@@ -47,7 +47,7 @@ def work(arguments: argparse.Namespace) -> None:
 
 def _told(model: PushModel, arguments: argparse.Namespace) -> str:
     pushes = read_pushes(arguments.data)
-    found = evaluation(model, pushes)
+    found = evaluate(model, pushes)
     if arguments.html:
         # drawing takes a second to import: only who wants pictures waits for it
         from push_gp.evaluation.evaluation_page import write_evaluation_page  # noqa: PLC0415

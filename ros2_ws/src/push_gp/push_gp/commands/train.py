@@ -22,7 +22,7 @@ from push_gp.models import (
     save_model,
     subset_rows,
 )
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -99,7 +99,7 @@ def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
 def _trained(pushes: PushSet, mean: str) -> GpModel:
     started = time.monotonic()
     with tqdm(desc=f'fitting {len(pushes)} pushes', total=len(OUTPUTS), disable=None) as bar:
-        model = learned(pushes, mean, lambda _output: bar.update())
+        model = train(pushes, mean, lambda _output: bar.update())
     seconds = time.monotonic() - started
     sys.stdout.write(
         f'{len(pushes)} pushes of {pushes.distance * 1e3:g} mm, {mean} mean, '

@@ -3,7 +3,7 @@
 from push_gp.evaluation.evaluation import (
     Evaluation,
     RolloutEvaluation,
-    evaluation,
+    evaluate,
     rollout_evaluation,
 )
 from push_gp.evaluation.learning_curve import METHODS, Place, learning_curve, sizes_within
@@ -14,7 +14,7 @@ __all__ = [
     'Evaluation',
     'Place',
     'RolloutEvaluation',
-    'evaluation',
+    'evaluate',
     'learning_curve',
     'rollout_evaluation',
     'sizes_within',

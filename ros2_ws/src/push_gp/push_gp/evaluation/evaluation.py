@@ -71,7 +71,7 @@ def rollout_evaluation(model: PushModel, pushes: LongPushes) -> RolloutEvaluatio
     return RolloutEvaluation(model.info.model_id, pushes, errors)
 
 
-def evaluation(model: PushModel, pushes: PushSet) -> Evaluation:
+def evaluate(model: PushModel, pushes: PushSet) -> Evaluation:
     """Compares a model with measured pushes.
 
     Raises:

@@ -11,7 +11,7 @@ from push_core.geometry import Array
 from push_gp.evaluation.calibration import calibration
 from push_gp.models import PushModel
 from push_gp.training.fit_cone import fitted_cone
-from push_gp.training.learn import learned
+from push_gp.training.train import train
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 HELD_OUT = 0.2
@@ -100,7 +100,7 @@ def _held_out(count: int) -> int:
 
 
 def _model(pushes: PushSet, method: str) -> PushModel:
-    return fitted_cone(pushes) if method == LIMIT_SURFACE else learned(pushes, method)
+    return fitted_cone(pushes) if method == LIMIT_SURFACE else train(pushes, method)
 
 
 def _score(model: PushModel, rest: PushSet) -> tuple[float, float]:

@@ -1,23 +1,16 @@
 """The command that collects pushes in the simulator: `ros2 run push_sim collect`."""
 
 import argparse
-import math
 import sys
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-from push_core.common import Parser, check_place, run_command, workers
-from push_core.data import PushSet, write_pushes
-from push_core.geometry import Array
-from push_core.physics import Slider
-from tqdm import tqdm
+from push_core.common import Parser, check_place, run_command
+from push_core.data import write_pushes
 
-from push_sim.collect import SAMPLINGS, Aim, Collector, PushDesign
+from push_sim.collect import SAMPLINGS, PushDesign, collect_pushes
 from push_sim.commands.command_checks import check_jobs, check_range, check_seed
-from push_sim.settings import PROFILES, SimSettings, profile
+from push_sim.settings import PROFILES
 
 EPILOG = """how the pushes are chosen (--sampling):
   uniform   drawn evenly over 95 % of the face and directions up to 84 degrees from the normal
@@ -30,74 +23,6 @@ examples:
   ros2 run push_sim collect --pushes 5 --sampling die --profile ideal -o five.csv
   ros2 run push_sim collect --pushes 400 --sampling grid --speed 0.05 --duration 0.1 -o fast.csv
 """
-
-_MOST_IN_CHUNK = 250
-
-
-@dataclass(frozen=True)
-class Asked:
-    """What every process has to know."""
-
-    pushes: int
-    seed: int
-    settings: SimSettings
-    design: PushDesign
-    sampling: str
-
-    @property
-    def aim(self) -> Aim:
-        """Where each push sets out."""
-        return SAMPLINGS[self.sampling](self.design, Slider().side, self.pushes)
-
-
-def collect(
-    pushes: int,
-    seed: int,
-    profile_name: str = 'irb120',
-    design: PushDesign | None = None,
-    jobs: int = 1,
-    sampling: str = 'uniform',
-) -> PushSet:
-    """Makes pushes in the simulator; the rows do not depend on the number of processes.
-
-    Args:
-        pushes: how many.
-        seed: of contact points, directions and noise, not negative.
-        profile_name: of the cell; its cameras' noise is in the rows.
-        design: how the tip pushes; default: as the measured ones.
-        jobs: number of processes.
-        sampling: one of `SAMPLINGS`.
-
-    Raises:
-        InputError: the sampling cannot make so many or such long pushes.
-        RunError: a push does not stay on the face.
-    """
-    asked = Asked(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
-    table = np.array(list(collected(asked, jobs)))
-    return PushSet(table[:, 0], table[:, 1], table[:, 2:], asked.design.distance)
-
-
-def collected(asked: Asked, jobs: int) -> Iterator[Array]:
-    """All rows (5,) in order; a wrong sampling fails before the processes start."""
-    _ = asked.aim
-    # a world takes as long to make as five pushes
-    size = min(_MOST_IN_CHUNK, math.ceil(asked.pushes / jobs))
-    firsts = range(0, asked.pushes, size)
-    tasks = ((asked, first, min(first + size, asked.pushes)) for first in firsts)
-    bar: tqdm[Any]
-    with (
-        tqdm(desc='collecting', total=asked.pushes, unit=' pushes', disable=None) as bar,
-        workers(jobs) as run_in,
-    ):
-        for chunk in run_in(_chunk, tasks):
-            bar.update(len(chunk))
-            yield from chunk
-
-
-def _chunk(asked: Asked, first: int, end: int) -> list[Array]:
-    """The rows of the pushes of some numbers."""
-    with Collector(asked.settings, Slider(), asked.design, asked.aim) as collector:
-        return [collector.push(asked.seed, number) for number in range(first, end)]
 
 
 def parser() -> Parser:
@@ -132,7 +57,7 @@ def work(arguments: argparse.Namespace) -> None:
     check_seed(arguments.seed)
     check_jobs(arguments.jobs)
     check_place(arguments.output)
-    pushes = collect(
+    pushes = collect_pushes(
         arguments.pushes,
         arguments.seed,
         arguments.profile,

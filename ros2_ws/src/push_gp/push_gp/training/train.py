@@ -11,7 +11,7 @@ from push_gp.training.fit_cone import fitted_cone
 from push_gp.training.prior import OVER_CONE, OVER_ZERO, priors
 
 
-def learned(
+def train(
     pushes: PushSet, mean: str = 'zero', progress: Callable[[str], object] = lambda _output: None
 ) -> GpModel:
     """The most likely model of a push set; the same set gives the same model bit for bit.
@@ -28,10 +28,10 @@ def learned(
         RunError: no hyperparameters explain the pushes.
     """
     with threadpool_limits(1, 'blas'):
-        return _learned(pushes, mean, progress)
+        return _trained(pushes, mean, progress)
 
 
-def _learned(pushes: PushSet, mean: str, progress: Callable[[str], object]) -> GpModel:
+def _trained(pushes: PushSet, mean: str, progress: Callable[[str], object]) -> GpModel:
     mean_function = _mean_function(pushes, mean)
     beliefs = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
     found = []

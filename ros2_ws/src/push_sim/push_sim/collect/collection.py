@@ -1,0 +1,86 @@
+"""Pushes in the simulator by the hundred, in several processes."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from push_core.common import workers
+from push_core.data import PushSet
+from push_core.geometry import Array
+from push_core.physics import Slider
+from tqdm import tqdm
+
+from push_sim.collect.collector import Collector
+from push_sim.collect.push_design import PushDesign
+from push_sim.collect.push_sampling import SAMPLINGS, Aim
+from push_sim.settings import SimSettings, profile
+
+_MOST_IN_CHUNK = 250
+
+
+@dataclass(frozen=True)
+class Collection:
+    """One collection, as every process needs to know it."""
+
+    pushes: int
+    seed: int
+    settings: SimSettings
+    design: PushDesign
+    sampling: str
+
+    @property
+    def aim(self) -> Aim:
+        """Where each push sets out."""
+        return SAMPLINGS[self.sampling](self.design, Slider().side, self.pushes)
+
+
+def collect_pushes(
+    pushes: int,
+    seed: int,
+    profile_name: str = 'irb120',
+    design: PushDesign | None = None,
+    jobs: int = 1,
+    sampling: str = 'uniform',
+) -> PushSet:
+    """Makes pushes in the simulator; the rows do not depend on the number of processes.
+
+    Args:
+        pushes: how many.
+        seed: of contact points, directions and noise, not negative.
+        profile_name: of the cell; its cameras' noise is in the rows.
+        design: how the tip pushes; default: as the measured ones.
+        jobs: number of processes.
+        sampling: one of `SAMPLINGS`.
+
+    Raises:
+        InputError: the sampling cannot make so many or such long pushes.
+        RunError: a push does not stay on the face.
+    """
+    collection = Collection(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
+    table = np.array(list(collected(collection, jobs)))
+    return PushSet(table[:, 0], table[:, 1], table[:, 2:], collection.design.distance)
+
+
+def collected(collection: Collection, jobs: int) -> Iterator[Array]:
+    """All rows (5,) in order; an impossible sampling fails before the processes start."""
+    _ = collection.aim  # raises
+    # a world takes as long to make as five pushes
+    size = min(_MOST_IN_CHUNK, math.ceil(collection.pushes / jobs))
+    firsts = range(0, collection.pushes, size)
+    tasks = ((collection, first, min(first + size, collection.pushes)) for first in firsts)
+    bar: tqdm[Any]
+    with (
+        tqdm(desc='collecting', total=collection.pushes, unit=' pushes', disable=None) as bar,
+        workers(jobs) as run_in,
+    ):
+        for chunk in run_in(_chunk, tasks):
+            bar.update(len(chunk))
+            yield from chunk
+
+
+def _chunk(collection: Collection, first: int, end: int) -> list[Array]:
+    """The rows of the pushes of some numbers."""
+    with Collector(collection.settings, Slider(), collection.design, collection.aim) as collector:
+        return [collector.push(collection.seed, number) for number in range(first, end)]
