@@ -1,5 +1,5 @@
 """Plant and controller in one loop without ROS; also computes a recorded run again."""
 
-from push_bringup.in_process.loop import InProcessCell
+from push_bringup.in_process.loop import InProcessCell, tabulated
 
-__all__ = ['InProcessCell']
+__all__ = ['InProcessCell', 'tabulated']
