@@ -25,6 +25,7 @@ lint: setup  ## check style, types, imports, shell scripts and the Dockerfile
 	@scripts/in_env ruff check .
 	@scripts/in_env ruff format --check .
 	@scripts/in_env mypy
+	@scripts/in_env mypy examples/*.py
 	@scripts/in_env lint-imports --no-logo --no-cache
 	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
 	@scripts/in_env hadolint docker/Dockerfile

@@ -25,9 +25,8 @@ IMPORTED_BY_NAME = {
     'push_gp.low_rank.folded_likelihood',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',
-    'push_gp.training.learn',
+    'push_gp.training.train',
     'push_mpc.node.horizon_message',
-    'push_sim.commands.collect',
 }
 
 
