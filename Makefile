@@ -5,7 +5,7 @@ PYTEST := scripts/in_env pytest -p no:cacheprovider
 SHELL_SCRIPTS := env.sh scripts/*.sh scripts/in_env scripts/bin/ros2 docker/*.sh requirements/lock.sh .ci/run
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test bench lint setup clean
+.PHONY: help demo test matrix bench lint setup clean
 
 help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -17,6 +17,9 @@ test: setup  ## run every test: of each package, then of the cell as a whole
 	@$(PYTEST) -n auto --dist loadfile -m 'not processes' $(UNIT_TESTS)
 	@$(PYTEST) -m processes $(UNIT_TESTS)
 	@$(PYTEST) tests
+
+matrix:  ## demo and tests on every Python found, in clones of their own (PYTHONS='3.12 3.13' picks them)
+	@PYTHONS='$(PYTHONS)' scripts/matrix.sh
 
 bench: setup  ## the paper's experiments in process, beside the paper's numbers (about five minutes)
 	@scripts/in_env ros2 run push_bringup bench table
@@ -30,7 +33,7 @@ lint: setup  ## check style, types, imports, shell scripts and the Dockerfile
 	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
 	@scripts/in_env hadolint docker/Dockerfile
 
-setup:  ## set up .venv and build the workspace (PYTHON=python3.10 picks the interpreter, EXTRA=bench adds libraries to compare with, EXTRA=parquet pyarrow)
+setup:  ## set up .venv and build the workspace (PYTHON=python3.12 picks the interpreter, EXTRA=bench adds libraries to compare with, EXTRA=parquet pyarrow)
 	@PYTHON='$(PYTHON)' EXTRA='$(EXTRA)' scripts/setup.sh
 
 clean:  ## remove everything that set-up, tests and lint made; runs/ stays

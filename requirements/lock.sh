@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes the lock files anew from the *.in files; needs uv (https://docs.astral.sh/uv).
-# One lock serves Python 3.10, 3.11 and 3.12 by environment markers.
+# One lock serves Python 3.10 to 3.13 by environment markers.
 set -eu
 cd "$(dirname "$0")"
 for purpose in run dev ros; do

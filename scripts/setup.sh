@@ -12,6 +12,7 @@ logs=$root/.cache/setup
 . "$scripts/setup/machine.sh"
 . "$scripts/setup/ros.sh"
 . "$scripts/setup/packages.sh"
+. "$scripts/setup/pybullet.sh"
 . "$scripts/setup/workspace.sh"
 
 main() {
@@ -77,6 +78,7 @@ install_packages() {
   else
     step 'Python packages'
   fi
+  install_pybullet
   install_locks packages run dev
   compile_packages
 }

@@ -67,7 +67,7 @@ def message(project, tools, **environment):
 
 
 def test_no_suitable_python(project, tools):
-    assert 'Python 3.10 or 3.11 is needed' in message(project, tools)
+    assert 'Python 3.10, 3.11, 3.12 or 3.13 is needed' in message(project, tools)
 
 
 def test_a_wrong_python_asked_for(project, tools):
@@ -102,6 +102,86 @@ def test_no_room(project, tools):
 
 def test_another_ros_is_sourced(project, tools):
     assert 'ROS 2 humble is sourced' in message(project, tools, ROS_DISTRO='humble')
+
+
+PARTS = 'say machine packages pybullet'
+# a pip that has no wheel, and whose builds end as BUILD says
+BUILDING_PYTHON = """#!/bin/sh
+case "$*" in
+  *version_info*) echo 3.13 ;;
+  *libc_ver*) echo glibc-2.41 ;;
+  *'pip wheel'*)
+    while [ "$1" != --wheel-dir ]; do shift; done
+    echo built >> "$BUILDS"
+    echo half > "$2/object.o"
+    [ "$BUILD" = whole ] || { echo 'x.cpp:1: error: no such thing'; exit 1; }
+    echo whole > "$2/pybullet-3.2.7-cp313-cp313-linux_x86_64.whl" ;;
+  *--only-binary*) echo 'ERROR: No matching distribution found'; exit 1 ;;
+esac
+"""
+
+
+@pytest.fixture
+def install_pybullet(project, tmp_path):
+    """Runs set-up's step for PyBullet in a clone, with a pip that compiles in no time."""
+
+    def install(build='whole', clone=project, **environment):
+        python = clone / '.venv/bin/python'
+        for folder in (python.parent, clone / '.venv/.stamps', clone / '.cache/setup'):
+            folder.mkdir(parents=True, exist_ok=True)
+        python.write_text(BUILDING_PYTHON)
+        python.chmod(0o755)
+        script = 'set -eu; scripts=$root/scripts; logs=$root/.cache/setup; environment_key=key; '
+        script += ''.join(f'. $scripts/setup/{part}.sh; ' for part in PARTS.split())
+        return subprocess.run(
+            ['bash', '-c', f'{script} install_pybullet'],
+            env={
+                'PATH': '/usr/bin:/bin',
+                'root': str(clone),
+                'HOME': str(tmp_path / 'home'),
+                'BUILD': build,
+                'BUILDS': str(tmp_path / 'builds'),
+                **environment,
+            },
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    return install
+
+
+def test_pybullet_is_compiled_once_for_all_clones(install_pybullet, project, tmp_path):
+    first = install_pybullet()
+    assert 'compiling PyBullet for Python 3.13, about five minutes, once' in first.stdout
+    other = tmp_path / 'other'
+    shutil.copytree(project, other, ignore=shutil.ignore_patterns('.venv', '.cache'))
+    second = install_pybullet(clone=other)
+    assert (first.returncode, second.returncode, second.stdout) == (0, 0, '')
+    assert (tmp_path / 'builds').read_text() == 'built\n'
+    (wheel,) = (tmp_path / 'home/.cache/push_cell/wheels').rglob('*.whl')
+    assert wheel.read_text() == 'whole\n'
+
+
+def test_a_failed_compile_is_one_line_and_leaves_no_wheel(install_pybullet, tmp_path):
+    failed = install_pybullet('half')
+    assert failed.returncode == 1
+    assert 'PyBullet does not compile: x.cpp:1: error: no such thing' in failed.stderr
+    assert failed.stderr.count('\n') == 1
+    assert not list(tmp_path.rglob('*.whl'))
+    assert install_pybullet().returncode == 0
+    assert not list(tmp_path.rglob('object.o'))
+
+
+@pytest.mark.parametrize('home', ['/proc/self', '/dev/null'])
+def test_a_home_that_cannot_be_written_is_done_without(install_pybullet, project, home):
+    assert install_pybullet(HOME=home).returncode == 0
+    assert list((project / '.cache/wheels').rglob('*.whl'))
+
+
+def test_the_cache_is_where_the_user_wants_it(install_pybullet, tmp_path):
+    install_pybullet(XDG_CACHE_HOME=str(tmp_path / 'caches'))
+    assert list((tmp_path / 'caches/push_cell/wheels/glibc-2.41').glob('*.whl'))
 
 
 @pytest.mark.parametrize('name', LOCKS)

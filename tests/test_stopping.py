@@ -3,7 +3,9 @@
 How long they take is what `bench stopping` measures; here the nodes have to end by themselves.
 """
 
+import contextlib
 import json
+import os
 import signal
 import subprocess
 import time
@@ -20,14 +22,23 @@ AT_REST = 1e-3  # [m/s]
 
 def nodes_of(cell: 'subprocess.Popen[str]') -> dict[str, int]:
     """The cell's child processes: module to process id."""
-    listed = subprocess.run(
-        ['ps', '--ppid', str(cell.pid), '-o', 'pid=,args='],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    rows = [line.split() for line in listed.stdout.splitlines()]
-    return {row[row.index('-m') + 1]: int(row[0]) for row in rows if '-m' in row}
+    rows = {process: arguments_of(process) for process in children_of(cell.pid)}
+    return {row[row.index('-m') + 1]: process for process, row in rows.items() if '-m' in row}
+
+
+def children_of(process: int) -> list[int]:
+    """From /proc, so that no `ps` is needed; the fields before the parent end with a bracket."""
+    children = []
+    for folder in Path('/proc').glob('[0-9]*'):
+        with contextlib.suppress(OSError):
+            _, _, fields = (folder / 'stat').read_text().rpartition(')')
+            if int(fields.split()[1]) == process:
+                children.append(int(folder.name))
+    return children
+
+
+def arguments_of(process: int) -> list[str]:
+    return Path(f'/proc/{process}/cmdline').read_text().split('\0')
 
 
 def is_alive(process: int) -> bool:
@@ -73,9 +84,7 @@ def test_after_a_signal_the_nodes_end_by_themselves_and_the_bag_is_finished(
 def test_a_killed_controller_leaves_the_tip_at_rest_and_the_cell_says_why(
     pushing_cell: 'subprocess.Popen[str]', tmp_path: Path
 ) -> None:
-    subprocess.run(
-        ['kill', '-KILL', str(nodes_of(pushing_cell)['push_mpc.node.mpc_node'])], check=True
-    )
+    os.kill(nodes_of(pushing_cell)['push_mpc.node.mpc_node'], signal.SIGKILL)
     out, err = pushing_cell.communicate(timeout=HANG)
     assert pushing_cell.returncode == 1
     assert 'mpc_node' in err.splitlines()[-1]

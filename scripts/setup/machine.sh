@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # What the machine must offer, each lack told in one line.
 
-readonly WHEEL_PYTHONS='python3.11 python3.10 python3'
+# those first for which PyBullet need not be compiled
+readonly WHEEL_PYTHONS='python3.11 python3.10 python3 python3.12 python3.13'
 readonly ROS_PYTHONS='python3 python3.12'
 readonly NEEDED_MEGABYTES=2500
 
@@ -67,14 +68,14 @@ find_python() {
 # serves NAME: whether this interpreter can run the cell.
 serves() {
   case $ros in
-    wheels) case $(python_version "$1") in 3.10 | 3.11) ;; *) return 1 ;; esac ;;
+    wheels) case $(python_version "$1") in 3.1[0-3]) ;; *) return 1 ;; esac ;;
     *) "$1" -c 'import rclpy' 2> /dev/null ;;
   esac
 }
 
 wanted_python() {
   case $ros in
-    wheels) echo 'Python 3.10 or 3.11 is needed' ;;
+    wheels) echo 'Python 3.10, 3.11, 3.12 or 3.13 is needed' ;;
     *) echo "a Python that imports the rclpy of $ros is needed" ;;
   esac
 }
