@@ -23,12 +23,9 @@ from push_sim.node.conversions import (
     pose_message,
     position_message,
 )
-from push_sim.node.lockstep_pace import LockstepPace
 from push_sim.node.node_settings import NodeSettings, node_settings
-from push_sim.node.pace import Pace
-from push_sim.node.realtime_pace import RealtimePace
-from push_sim.node.scene import scene
-from push_sim.node.transforms import Transforms
+from push_sim.node.pace import LockstepPace, Pace, RealtimePace
+from push_sim.node.viewer_messages import Transforms, scene_markers
 from push_sim.plant import Kind, Observation, Perturbation, Plant
 
 _SCENE_PERIOD = 0.05
@@ -116,7 +113,9 @@ class SimNode(Node):  # type: ignore[misc]
 
     def _publish_scene(self) -> None:
         plant, stamp = self._plant, to_stamp(self._pace.stamp(self._plant.time))
-        self._scene.publish(scene(self._slider, plant.object_pose, plant.tip_position, stamp))
+        self._scene.publish(
+            scene_markers(self._slider, plant.object_pose, plant.tip_position, stamp)
+        )
 
     def _report(self) -> None:
         values = {

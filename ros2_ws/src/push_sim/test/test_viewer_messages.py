@@ -3,7 +3,7 @@
 import numpy as np
 from builtin_interfaces.msg import Time
 from push_core.geometry.quaternion import quaternion_to_yaw
-from push_sim.node.transforms import Transforms
+from push_sim.node.viewer_messages import Transforms
 
 
 def test_object_and_tip_are_frames_of_the_world() -> None:
