@@ -1,4 +1,4 @@
-"""The model of who names none: learned once, and again where the cached one is of no use."""
+"""The default model: trained once, and again where the cached file is not valid."""
 
 import shutil
 from pathlib import Path

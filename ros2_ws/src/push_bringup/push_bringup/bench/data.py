@@ -20,6 +20,7 @@ from tqdm import tqdm
 
 from push_bringup.bench.options import add_lap_options, check_positive, opened_store
 from push_bringup.experiment import Experiment, Lap, LapJob, push_all, worker_pool
+from push_bringup.setup import MODEL_SOURCES, code_key
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 TRACK = Experiment('eight', 0.08)
@@ -150,8 +151,8 @@ def _choices(arguments: argparse.Namespace, available: int) -> Iterator[Choice]:
 def _trained(
     pushes: PushSet, choices: Sequence[Choice], arguments: argparse.Namespace
 ) -> list[Path]:
-    """The model files of the choices; those that are there already are taken as they are."""
-    folder = arguments.models / pushes.sha256()[:12]
+    """The model files of the choices; the same code trains each of them once."""
+    folder = arguments.models / f'{pushes.sha256()[:12]}_{code_key(MODEL_SOURCES)[:12]}'
     folder.mkdir(parents=True, exist_ok=True)
     files = [folder / f'{c.choice}_{c.points}_{c.mean}_{c.draw}.npz' for c in choices]
     work = [

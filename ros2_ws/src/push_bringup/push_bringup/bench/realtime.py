@@ -15,13 +15,14 @@ from tqdm import tqdm
 
 from push_bringup.bench.options import add_controllers, check_positive
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob, LapStore, push_all
-from push_bringup.setup import default_model
+from push_bringup.setup import code_key, default_model
 
 LAPS_FILE = 'in_process.jsonl'
 EPILOG = """Example: bench realtime --runs 3 --controllers gp
 Each run is one of `cell`, about as long as its lap: 4 minutes for the five rows. Nothing else
-should run meanwhile. Runs that are in the folder are taken as they are, so that an interrupted
-benchmark goes on. Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
+should run meanwhile. Runs of the same code that are in the folder are not repeated, so that an
+interrupted benchmark goes on.
+Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
 
 
@@ -164,7 +165,8 @@ def _real_time(
     each = [(*case, seed) for case in cases for seed in range(runs)]
     for experiment, controller, seed in tqdm(each, 'real time', unit=' runs', disable=None):
         name = f'{experiment.track}_{1e3 * experiment.speed:.0f}_{experiment.perturbation}'
-        yield _run(experiment, controller, seed, folder / f'{name}_{controller}_{seed}')
+        run = f'{name}_{controller}_{seed}'
+        yield _run(experiment, controller, seed, folder / code_key()[:12] / run)
 
 
 def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> dict[str, object]:

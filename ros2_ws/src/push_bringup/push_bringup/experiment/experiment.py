@@ -6,20 +6,21 @@ instant, over the run.
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from statistics import fmean
 from typing import Any
 
 import numpy as np
 from push_core.geometry import Array
-from push_gp.models import model_named
+from push_gp.models import ANALYTICAL, model_named
 from push_mpc.loop import FOLLOWING, Tick
 from push_mpc.plan import planned
 from push_sim.plant import Observation
 
 from push_bringup.in_process import InProcessCell
-from push_bringup.setup import CellParameters, Request, installed_config, resolved
+from push_bringup.setup import CellParameters, Request, code_key, installed_config, resolved
 
 PATH_POINTS = 400
 """Points of a lap that are kept for its picture."""
@@ -66,13 +67,22 @@ class LapJob:
     seed: int
     overrides: Mapping[str, object] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def key(self) -> str:
-        """Hash of everything that decides how the lap goes, but for the program itself."""
+        """Hash of everything that decides how the lap goes: code, model file, parameters.
+
+        Raises:
+            InputError: an override is unknown or out of range.
+        """
         path = Path(self.model)
-        content = path.read_bytes() if path.is_file() else self.model.encode()
-        values = {**asdict(self), 'model': hashlib.sha256(content).hexdigest()}
-        return hashlib.sha256(repr(sorted(values.items())).encode()).hexdigest()
+        model = path.read_bytes() if path.is_file() else self.model.encode()
+        # where the model file lies does not matter
+        values = replace(self, model=ANALYTICAL)
+        parameters = values.parameters().as_yaml()
+        parts = (code_key().encode(), model, repr(values).encode(), parameters.encode())
+        return hashlib.sha256(
+            b''.join(hashlib.sha256(part).digest() for part in parts)
+        ).hexdigest()
 
     def parameters(self) -> CellParameters:
         """Those of every node.

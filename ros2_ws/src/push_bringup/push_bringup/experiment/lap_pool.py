@@ -1,8 +1,8 @@
-"""Many laps: on all cores, with a progress bar, and never one of them twice.
+"""Many laps on all cores, with a progress bar; finished laps are kept in a file.
 
-Every finished lap is appended to a file at once, so that an interrupted benchmark goes on where
-it was. A lap is known by the hash of its job; a change of the program is not seen, for which
-there is `--fresh`.
+Every finished lap is appended to the file at once, so that an interrupted benchmark continues
+where it stopped. A lap is found by the hash of its job, which includes the sources, the library
+versions and the model; laps of other sources stay in the file unused.
 """
 
 import json
@@ -46,7 +46,7 @@ class LapStore:
             self._take(line)
 
     def find(self, job: LapJob) -> Lap | None:
-        """The lap, if it was pushed before."""
+        """The lap, if the same code pushed it before."""
         return self._laps.get(job.key)
 
     def add(self, job: LapJob, lap: Lap) -> None:

@@ -8,13 +8,22 @@ from push_bringup.setup.cell_parameters import (
     resolved,
 )
 from push_bringup.setup.default_model import default_model
-from push_bringup.setup.machine import git_revision, processor, versions
+from push_bringup.setup.provenance import (
+    MODEL_SOURCES,
+    code_key,
+    git_revision,
+    processor,
+    source_revision,
+    versions,
+)
 from push_bringup.setup.request import Request
 from push_bringup.setup.run_folder import keep_logs, new_run_folder, write_inputs
 
 __all__ = [
+    'MODEL_SOURCES',
     'CellParameters',
     'Request',
+    'code_key',
     'default_model',
     'git_revision',
     'installed_config',
@@ -24,6 +33,7 @@ __all__ = [
     'processor',
     'recorded_parameters',
     'resolved',
+    'source_revision',
     'versions',
     'write_inputs',
 ]

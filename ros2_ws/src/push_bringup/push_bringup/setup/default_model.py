@@ -1,33 +1,33 @@
-"""The model that the cell uses when none is named: learned once from simulated pushes, cached.
+"""The model that the cell uses when none is named: trained once on simulated pushes, cached.
 
-A plant with other defaults has a model of its own.
+Other sources or libraries make another model: their hash is part of the file's name.
 """
 
-import hashlib
 import os
 import sys
 from pathlib import Path
 
 from push_core.common import InputError
 from push_gp.models import VERSION, read_sealed
-from push_sim.settings import profile
+
+from push_bringup.setup.provenance import MODEL_SOURCES, code_key
 
 POINTS = 200
 SEED = 0
 
 
 def default_model() -> Path:
-    """Path of the model file; collects and trains it where the cache does not hold a good one."""
-    path = _cache() / f'simulated_{POINTS}_pushes_seed_{SEED}_plant_{_plant()}.npz'
-    if not _is_good(path):
+    """Path of the model file; collects pushes and trains if the cache holds no valid one."""
+    path = _cache() / f'simulated_{POINTS}_pushes_seed_{SEED}_{code_key(MODEL_SOURCES)[:12]}.npz'
+    if not _is_valid(path):
         sys.stderr.write(f'learning the default model from {POINTS} simulated pushes, once\n')
         path.parent.mkdir(parents=True, exist_ok=True)
-        _learn(path)
+        _train(path)
     return path
 
 
-def _learn(path: Path) -> None:
-    # the physics and the optimiser take a second to import: only who learns waits for them
+def _train(path: Path) -> None:
+    # the physics and the optimiser take a second to import: only training needs them
     from push_gp.models.model_file import save_model  # noqa: PLC0415
     from push_gp.training.train import train  # noqa: PLC0415
     from push_sim.collect import collect_pushes  # noqa: PLC0415
@@ -35,18 +35,12 @@ def _learn(path: Path) -> None:
     save_model(path, train(collect_pushes(POINTS, SEED)))
 
 
-def _plant() -> str:
-    """What tells one plant from another."""
-    world = profile('irb120').world
-    return hashlib.sha256(repr(world).encode()).hexdigest()[:12]
-
-
 def _cache() -> Path:
     home = os.environ.get('XDG_CACHE_HOME') or str(Path.home() / '.cache')
     return Path(home) / 'push_cell'
 
 
-def _is_good(path: Path) -> bool:
+def _is_valid(path: Path) -> bool:
     try:
         header, _ = read_sealed(path)
     except InputError:

@@ -13,7 +13,7 @@ from push_gp.models import ANALYTICAL, read_sealed
 from push_mpc.plan import Plan
 
 from push_bringup.setup.cell_parameters import CellParameters
-from push_bringup.setup.machine import git_revision, processor, versions
+from push_bringup.setup.provenance import git_revision, processor, source_revision, versions
 from push_bringup.setup.request import Request
 
 PLAN_FILE = 'nominal_trajectory.csv'
@@ -84,6 +84,7 @@ def facts(request: Request) -> dict[str, str]:
         'python': platform.python_version(),
         'versions': json.dumps(versions()),
         'git_revision': git_revision(),
+        'source_revision': source_revision(),
         **_model_facts(request.model),
     }
 
