@@ -170,7 +170,7 @@ def _push_and_learn(cell, record, server, writer):
             for scale in (1.05, 1.1):
                 writer.write('/added_pushes', serialize_message(added(server, scale)), 1, 1)
             table = tabulated(server.model, controller.settings.slider.side)
-            controller.use(controller.prepared(table, server.info.model_id))
+            controller.use(controller.prepare_model(table, server.info.model_id))
         tick = controller.step(
             observation.object_pose, observation.tip_position, observation.time, cell.plant.time
         )

@@ -51,7 +51,7 @@ class Cell:
     def __init__(self, settings: MpcSettings, table: Table) -> None:
         self.plant = Plant(profile('irb120'), settings.slider)
         self.controller = Controller(settings, settings.slider, _plan_of(settings))
-        self.controller.use(self.controller.prepared(table, 'table'))
+        self.controller.use(self.controller.prepare_model(table, 'table'))
         start = self.controller.plan.state[0]
         tip = settings.slider.tip_position(start[:3], start[3])
         self.seen = self.plant.reset(start[:3], tip, seed=1)

@@ -45,7 +45,7 @@ def test_a_tick_ends_in_a_finite_command_or_a_stated_stop(controller, scales, of
     made = Controller(chosen, chosen.slider, PLANS[controller])
     try:
         table = Table(GRID, scales[0] * CONE[0], scales[1] * CONE[1])
-        made.use(made.prepared(table, 'odd'))
+        made.use(made.prepare_model(table, 'odd'))
     except InputError:
         return
     made.arm()
@@ -65,5 +65,5 @@ def test_a_tick_ends_in_a_finite_command_or_a_stated_stop(controller, scales, of
 def test_a_model_without_sense_is_refused_in_one_line(slider) -> None:
     chosen = SETTINGS['gp']
     made = Controller(chosen, slider, PLANS['gp'])
-    with pytest.raises(InputError, match='by the model the object moves beyond all bounds'):
-        made.prepared(Table(GRID, 1e300 * CONE[0], 1e300 * CONE[1]), 'huge')
+    with pytest.raises(InputError, match='implausibly large displacement'):
+        made.prepare_model(Table(GRID, 1e300 * CONE[0], 1e300 * CONE[1]), 'huge')

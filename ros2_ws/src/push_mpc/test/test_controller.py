@@ -105,7 +105,7 @@ def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
     monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
     tick = tracking.tick()
     assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)
-    assert tracking.controller.stop_reason == 'the solver found no input (status 3)'
+    assert tracking.controller.stop_reason == 'the solver returned no usable input (status 3)'
 
 
 def test_every_command_keeps_the_limits(tracking) -> None:
@@ -122,7 +122,7 @@ def test_without_compensation_it_plans_from_what_it_sees(tracking, table) -> Non
     chosen = {'delay_compensation': False, 'good_poses': 1, 'consistent_plan': False}
     without = replace(SETTINGS, **chosen)
     controller = Controller(without, without.slider, tracking.controller.plan)
-    controller.use(controller.prepared(table, 'table'))
+    controller.use(controller.prepare_model(table, 'table'))
     controller.arm()
     seen = tracking.seen
     for exposure in (0.0, 0.01, 0.02):

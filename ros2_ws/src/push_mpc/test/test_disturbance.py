@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from push_core.geometry.frames import rotation
-from push_mpc.estimate.disturbance import Disturbance
+from push_mpc.estimate.disturbance import DisturbanceEstimator
 from push_mpc.table.surrogate import Table
 
 LENGTH = 0.02
@@ -14,11 +14,11 @@ STEP = 8e-4  # [m] of a tick at 80 mm/s
 
 
 @pytest.fixture
-def estimate(slider) -> Disturbance:
-    return Disturbance(LENGTH, slider)
+def estimate(slider) -> DisturbanceEstimator:
+    return DisturbanceEstimator(LENGTH, slider)
 
 
-def pushed(estimate: Disturbance, slider, table: Table, ticks: int, missed=MISSED):
+def pushed(estimate: DisturbanceEstimator, slider, table: Table, ticks: int, missed=MISSED):
     """Pushes an object that moves as the table says and a constant twist besides."""
     pose, p_y = np.array([0.2, -0.1, 0.7]), 0.004
     for _ in range(ticks):
@@ -48,7 +48,7 @@ def test_it_takes_its_length_of_travel_to_learn(estimate, slider, table) -> None
 
 
 def test_a_length_of_zero_leaves_it_out(slider, table) -> None:
-    assert not pushed(Disturbance(0.0, slider), slider, table, 50).any()
+    assert not pushed(DisturbanceEstimator(0.0, slider), slider, table, 50).any()
 
 
 @pytest.mark.parametrize('moved', [[0.03, 0.0, 0.0], [0.0, 0.02, 0.0], [0.0, 0.0, 0.3]])

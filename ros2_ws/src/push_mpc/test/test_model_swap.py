@@ -13,7 +13,7 @@ from push_mpc.loop.controller import Controller, Mode
 def other(tracking, tabulated):
     """The same square with more friction, prepared as the worker prepares it."""
     table = tabulated(MotionCone(Slider(friction_pusher=0.4)))
-    return tracking.controller.prepared(table, 'other')
+    return tracking.controller.prepare_model(table, 'other')
 
 
 def test_the_next_tick_uses_it_and_each_pose_is_answered(tracking, other) -> None:
@@ -34,7 +34,7 @@ def test_taking_it_over_solves_and_prepares_nothing(tracking, other, monkeypatch
         raise AssertionError('the 10 ms loop did the work of the worker')
 
     with monkeypatch.context() as patched:
-        for name in ('_solve', '_prepare', 'prepared'):
+        for name in ('_solve', '_prepare', 'prepare_model'):
             patched.setattr(Controller, name, busy)
         tracking.controller.use(other)
     assert tracking.tick().solver_status == 1

@@ -160,5 +160,5 @@ def test_the_tightest_circle_is_the_one_on_the_edge_of_the_friction_cone(
     if pushable:
         flat_plan(circle, SPEED, slider, laps=1, period=0.01, overrun=0.5)
         return
-    with pytest.raises(TooTightError, match='goes round a radius of 74 mm'):
+    with pytest.raises(TooTightError, match='the smallest radius is 74 mm'):
         flat_plan(circle, SPEED, slider, laps=1, period=0.01, overrun=0.5)

@@ -10,9 +10,9 @@ from push_mpc.table.tabulation import (
     GRIDS,
     MOST_AT_ONCE,
     TOLERANCE,
-    Answer,
-    Question,
-    Subject,
+    ModelScope,
+    Query,
+    QueryResult,
     Tabulated,
     tabulation,
 )
@@ -26,20 +26,20 @@ class Waves:
 
     def __init__(self, waves: float, deviation: float) -> None:
         self.waves, self.deviation = waves, deviation
-        self.questions: list[Question] = []
+        self.questions: list[Query] = []
 
-    def answer(self, question: Question) -> Answer:
+    def answer(self, question: Query) -> QueryResult:
         self.questions.append(question)
         a, b = 60.0 * self.waves * question.p_y, 2.0 * self.waves * question.beta
         mean = np.repeat((np.sin(a) * np.sin(b))[:, None], 3, axis=1)
         slopes = np.stack([60.0 * np.cos(a) * np.sin(b), 2.0 * np.sin(a) * np.cos(b)], axis=-1)
         jacobian = np.repeat(self.waves * slopes[:, None, :], 3, axis=1)
         count = len(mean) if question.want_variance else 0
-        return Answer(mean, jacobian, np.full((count, 3), self.deviation**2))
+        return QueryResult(mean, jacobian, np.full((count, 3), self.deviation**2))
 
 
 def tabulated(model: Waves, kind: str = 'gp', mean_function: str = 'zero') -> Tabulated:
-    conversation = tabulation(Subject(DATA, kind, mean_function, SIDE))
+    conversation = tabulation(ModelScope(DATA, kind, mean_function, SIDE))
     question = next(conversation)
     while True:
         try:
@@ -51,7 +51,7 @@ def tabulated(model: Waves, kind: str = 'gp', mean_function: str = 'zero') -> Ta
 def errors(table: Tabulated, model: Waves) -> Iterator[float]:
     generator = np.random.default_rng(1)
     p_y, beta = generator.uniform(-0.04, 0.03, 3000), generator.uniform(0.3, 2.8, 3000)
-    gap = table.table.evaluate(p_y, beta)[0] - model.answer(Question(p_y, beta)).mean
+    gap = table.table.evaluate(p_y, beta)[0] - model.answer(Query(p_y, beta)).mean
     yield from np.abs(gap).max(axis=0)
 
 
@@ -87,14 +87,14 @@ def test_a_model_without_variance_is_asked_for_none_and_told_apart() -> None:
     found = tabulated(model, kind='analytical', mean_function='analytical')
     assert found.size == GRIDS[0]
     assert not any(question.want_variance for question in model.questions)
-    assert 'states no deviation' in str(found)
+    assert 'has no variance' in str(found)
 
 
 def test_a_model_over_the_cone_is_tabulated_over_the_whole_face() -> None:
     model = Waves(1.0, deviation=0.02)
     found = tabulated(model, mean_function='analytical')
     beyond = np.array([0.044]), np.array([0.1])
-    truth = model.answer(Question(*beyond)).mean
+    truth = model.answer(Query(*beyond)).mean
     assert np.allclose(found.table.evaluate(*beyond)[0], truth, atol=1e-3)
     assert not found.data.covers(0.044, 0.1)
 

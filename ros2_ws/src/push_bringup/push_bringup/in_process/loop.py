@@ -7,7 +7,7 @@ import numpy as np
 from push_gp.models import PushModel
 from push_mpc.loop import Controller, Mode, Tick
 from push_mpc.plan import Plan
-from push_mpc.table import Answer, Domain, Question, Subject, Table, tabulation
+from push_mpc.table import Domain, ModelScope, Query, QueryResult, Table, tabulation
 from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 
@@ -32,7 +32,7 @@ class InProcessCell:
         self._slider = mpc.slider
         self._seed = parameters.sim.seed
         table = tabulated(model, mpc.slider.side)
-        self.controller.use(self.controller.prepared(table, model.info.model_id))
+        self.controller.use(self.controller.prepare_model(table, model.info.model_id))
 
     def run(self, on_tick: OnTick) -> str:
         """Pushes once along the track.
@@ -75,7 +75,7 @@ def tabulated(model: PushModel, side: float) -> Table:
     """The table that the controller would make of the server's answers."""
     info = model.info
     data = Domain.of_data(info.p_y_domain, info.beta_domain, side)
-    conversation = tabulation(Subject(data, info.kind, info.mean_function, side))
+    conversation = tabulation(ModelScope(data, info.kind, info.mean_function, side))
     question = next(conversation)
     try:
         while True:
@@ -84,10 +84,10 @@ def tabulated(model: PushModel, side: float) -> Table:
         return done.value.table  # type: ignore[no-any-return]
 
 
-def _answer(model: PushModel, question: Question) -> Answer:
+def _answer(model: PushModel, question: Query) -> QueryResult:
     asked = (question.p_y, question.beta)
     variance = model.variance(*asked) if question.want_variance else np.empty((0, 3))
-    return Answer.of(*model.evaluate(*asked), variance, model.distance)
+    return QueryResult.of(*model.evaluate(*asked), variance, model.distance)
 
 
 def nanoseconds(plant_time: float) -> int:

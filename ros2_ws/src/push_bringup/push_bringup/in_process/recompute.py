@@ -92,7 +92,7 @@ class Shadow(Controller):
     def _take_model(self, recorded_id: str) -> None:
         model = self._model_used(recorded_id)
         table = tabulated(model, self._side)
-        self.use(self.prepared(table, model.info.model_id))
+        self.use(self.prepare_model(table, model.info.model_id))
         self._recorded_id = recorded_id
 
     def _without_poses(self, tick: RecordedTick) -> Array:

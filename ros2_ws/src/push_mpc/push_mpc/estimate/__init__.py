@@ -1,6 +1,6 @@
 """Where the object will be when a command acts: delay predictor and disturbance estimate."""
 
-from push_mpc.estimate.disturbance import Disturbance
+from push_mpc.estimate.disturbance import DisturbanceEstimator
 from push_mpc.estimate.predictor import Predictor
 
-__all__ = ['Disturbance', 'Predictor']
+__all__ = ['DisturbanceEstimator', 'Predictor']

@@ -1,8 +1,8 @@
-"""What the model gets wrong right now: the twist that the object has beside the model's own.
+"""Estimates the model error: the difference between the object's measured twist and the model's.
 
-Both poses are measured, so each tick shows how the object moved under a known motion of the tip.
-What the model does not explain of it, for each metre of the tip's travel, passes a first-order
-filter over the path: a push is quasi-static and knows lengths, not times.
+Object and tip are both measured, so each tick yields a motion of the object under a known motion
+of the tip. The part that the model does not predict, per metre of tip travel, passes a first-order
+filter over travelled length (a quasi-static push has no time scale).
 """
 
 import math
@@ -13,25 +13,25 @@ from push_core.physics import Slider
 
 from push_mpc.table import Table
 
-_CONTACT_GAP = 1e-3  # [m] from which the tip does not push
-_LEAST_TRAVEL = 1e-5  # [m] below which a tick tells nothing but noise
-_JUMP = 2e-3  # [m] of a tick that no model error explains: a hand did it
+_CONTACT_GAP = 1e-3  # [m]; with a larger gap the tip does not push
+_LEAST_TRAVEL = 1e-5  # [m]; a shorter travel is noise
+_JUMP = 2e-3  # [m] in one tick; more is an outside disturbance, not a model error
 _JUMP_ANGLE = 0.03  # [rad]
 _LARGEST = np.array([0.4, 0.4, 12.0])
 
 
-class Disturbance:
-    """Filters the twist that the model leaves unexplained.
+class DisturbanceEstimator:
+    """First-order filter of the model error.
 
     Attributes:
-        rate: in the body frame, for each metre of travel (3,) [1, 1, rad/m].
+        rate: error twist in the body frame per metre of travel (3,) [1, 1, rad/m].
     """
 
     def __init__(self, length: float, slider: Slider) -> None:
         """Starts from zero.
 
         Args:
-            length: of the filter [m] of travel; 0 keeps the estimate at zero.
+            length: filter constant [m of travel]; 0 keeps the estimate at zero.
             slider: geometry of slider and tip.
         """
         self.rate = np.zeros(3)
@@ -40,12 +40,12 @@ class Disturbance:
         self._seen: tuple[Array, Array] | None = None
 
     def reset(self) -> None:
-        """Forgets everything."""
+        """Returns to zero."""
         self.rate = np.zeros(3)
         self._seen = None
 
     def observe(self, table: Table, object_pose: Array, tip: Array) -> None:
-        """Learns from one more measured pose (3,) and tip (2,)."""
+        """Updates the estimate with a measured object pose (3,) and tip position (2,)."""
         before, self._seen = self._seen, (object_pose, tip)
         if before is None or self._length == 0.0:
             return
@@ -61,7 +61,7 @@ class Disturbance:
     def _unexplained(
         self, table: Table, pose: Array, tip: Array, next_pose: Array, next_tip: Array
     ) -> tuple[float, tuple[float, float, float]]:
-        """Travel [m] of the tip into the face, 0 off it, and what the model misses of it."""
+        """Tip travel [m] (0 without contact) and the motion minus the model's (dx, dy, dtheta)."""
         turn = wrap_angle(float(next_pose[2] - pose[2]))
         heading = float(pose[2]) + 0.5 * turn
         cos, sin = math.cos(heading), math.sin(heading)
@@ -76,6 +76,6 @@ class Disturbance:
 
 
 def _turned(vector: Array, cos: float, sin: float) -> tuple[float, float]:
-    """A world vector (2,) as seen from a heading of this cosine and sine."""
+    """A world vector (2,) in the frame whose heading has this cosine and sine."""
     x, y = vector.tolist()
     return cos * x + sin * y, cos * y - sin * x

@@ -1,4 +1,4 @@
-"""The delay predictor: the state at the instant at which the next command will act.
+"""Delay predictor: the state at the time at which the next command takes effect.
 
 The measured state is rolled forward through the commands already sent, with the model of the
 object and the model of the robot's lag (a Smith predictor for a nonlinear plant).
@@ -20,7 +20,7 @@ _CONTACT_GAP = 5e-4
 
 
 class Predictor:
-    """Keeps a copy of the robot, fed with the same commands, and looks ahead with it."""
+    """Integrates a copy of the actuator and the motion model over the commands under way."""
 
     def __init__(self, settings: ActuatorSettings, slider: Slider) -> None:
         self._slider = slider
@@ -35,12 +35,12 @@ class Predictor:
         return self._horizon
 
     def reset(self) -> None:
-        """Forgets all commands: the robot is at rest."""
+        """Clears the command history; the robot is at rest."""
         self._now.reset()
         self._time = -math.inf
 
     def sent(self, velocity: Array, time: float) -> None:
-        """Takes note of a command (2,) [m/s] that was sent at a time [s]."""
+        """Records a command (2,) [m/s] sent at a time [s]."""
         self._now.command(velocity, time)
 
     def predict(
@@ -52,31 +52,31 @@ class Predictor:
         exposure: float,
         until: float,
     ) -> tuple[Array, Array]:
-        """Object pose (3,) and tip position (2,) at a later time.
+        """Predicts object pose (3,) and tip position (2,).
 
         Args:
             table: model of the object.
-            disturbance: twist beside the model's for each metre of travel (3,).
+            disturbance: estimated model error per metre of travel (3,) [1, 1, rad/m].
             object_pose: measured pose (3,) at the exposure.
             tip: measured tip position (2,) at the exposure.
-            exposure: time of the measurement [s], not before the last one.
-            until: the later time [s].
+            exposure: time of the measurement [s]; never decreases.
+            until: time of the prediction [s].
         """
         self._follow(exposure)
         self._ahead.copy_state(self._now)
         pose, place = tuple(object_pose.tolist()), tuple(tip.tolist())
-        beside = tuple(disturbance.tolist())
+        error = tuple(disturbance.tolist())
         time = exposure
         while until - time > _TIME_TOLERANCE:
             duration = min(_STEP, until - time)
             velocity = self._ahead.advance(time, duration)
-            pose = self._pushed(table, beside, pose, place, velocity, duration)
+            pose = self._pushed(table, error, pose, place, velocity, duration)
             place = (place[0] + velocity[0] * duration, place[1] + velocity[1] * duration)
             time += duration
         return np.array(pose), np.array(place)
 
     def _follow(self, exposure: float) -> None:
-        """Lets the copy of the robot live up to the exposure."""
+        """Advances the actuator copy to the exposure."""
         if self._time == -math.inf:
             self._time = exposure
         while exposure - self._time > _TIME_TOLERANCE:
@@ -87,13 +87,13 @@ class Predictor:
     def _pushed(
         self,
         table: Table,
-        beside: tuple[float, float, float],
+        error: tuple[float, float, float],
         pose: Pose,
         tip: Pair,
         velocity: Pair,
         duration: float,
     ) -> Pose:
-        """The object's pose after the tip moved on; it rests where the tip does not press."""
+        """The object's pose after one step of the tip; it rests without contact."""
         x, y, theta = pose
         cos, sin = math.cos(theta), math.sin(theta)
         v_n = cos * velocity[0] + sin * velocity[1]
@@ -104,8 +104,8 @@ class Predictor:
         p_y = cos * (tip[1] - y) - sin * (tip[0] - x)
         travel = math.hypot(v_n, v_t) * duration
         rate = table.rate(p_y, math.atan2(v_n, v_t))
-        dx, dy, turn = (known + more for known, more in zip(rate, beside, strict=True))
-        # the heading of the middle of the step makes a circle of an even push
+        dx, dy, turn = (known + more for known, more in zip(rate, error, strict=True))
+        # midpoint heading: exact for a constant body twist on a circle
         middle = theta + 0.5 * turn * travel
         cos, sin = math.cos(middle), math.sin(middle)
         return (

@@ -1,4 +1,4 @@
-"""The controller as one object: poses in, tip velocities out, no ROS and no clock of its own."""
+"""The controller: poses in, tip velocities out; no ROS, and time is an argument."""
 
 import math
 import time as clock
@@ -9,7 +9,7 @@ import numpy as np
 from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit
 
-from push_mpc.estimate import Disturbance, Predictor
+from push_mpc.estimate import DisturbanceEstimator, Predictor
 from push_mpc.loop.tick import FOLLOWING, Mode, Tick
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Plan, consistent_plan
@@ -17,19 +17,17 @@ from push_mpc.qp import ForceSteering, PlannedStates, Problem, Programs, Steerin
 from push_mpc.settings import ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
-__all__ = ['Controller', 'Mode', 'Tick']
-
 _STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
     'gp': VelocitySteering,
     'analytical': ForceSteering,
 }
 _STILL = np.zeros(2)
-_FARTHEST = 1e3  # [m], [rad]; a pose beyond it is a fault of whoever measured it
+_FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
 @dataclass(frozen=True)
-class Model:
-    """What the controller knows of the object's motion, and the plan that goes with it."""
+class PreparedModel:
+    """A model as the loop uses it: table, plan, and the QP data along the plan."""
 
     table: Table
     plan: Plan
@@ -38,7 +36,7 @@ class Model:
 
 
 class Controller:
-    """Model-predictive tracking of a plan with a tabulated model."""
+    """PreparedModel-predictive tracking of a plan with a tabulated model."""
 
     def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
         self.settings = settings
@@ -47,20 +45,20 @@ class Controller:
         self.stop_reason = ''
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider)
-        self._disturbance = Disturbance(settings.disturbance_length, slider)
+        self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
         self._steering = _STEERINGS[settings.controller](settings, slider)
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps + 1)
         self._samples = self._steps.copy()
         self._prepared = ('', -1)
-        self._model: Model | None = None
+        self._model: PreparedModel | None = None
         self._sent = _STILL
         self._seen = 0
         self._start = 0.0
 
     @property
     def model_id(self) -> str:
-        """Name of the model in use, empty without one."""
+        """Id of the model in use, empty without one."""
         return self._model.model_id if self._model else ''
 
     @property
@@ -70,26 +68,26 @@ class Controller:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """The programs that the latest tick solved, for who wants to solve them otherwise."""
+        """The QPs of the latest tick, for comparison with other solvers."""
         return tuple(solver.problem for solver in self._steering.solvers)
 
-    def prepared(self, table: Table, model_id: str) -> Model:
-        """A model with a plan of its own, linearised along it; may run in another thread."""
+    def prepare_model(self, table: Table, model_id: str) -> PreparedModel:
+        """Plans with a model and linearises along the plan; safe to call in another thread."""
         plan = self.plan
         if self.settings.consistent_plan:
             plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
         programs = self._steering.programs(table, plan, self._stride)
-        return Model(table, plan, programs, model_id)
+        return PreparedModel(table, plan, programs, model_id)
 
-    def use(self, model: Model) -> None:
-        """Takes a prepared model from the next tick on, and warms the solver up."""
+    def use(self, model: PreparedModel) -> None:
+        """Uses a prepared model from the next tick on; the first one also warms the solver up."""
         first = self._model is None
         self._model = model
         if first:
             self._solve(model.plan.state[0], 0.0)
 
     def arm(self) -> None:
-        """Makes ready: holds the tip at rest until enough poses came, then tracks the plan."""
+        """Holds the tip at rest until enough poses have arrived, then tracks the plan."""
         self.mode = Mode.ARMED
         self.stop_reason = ''
         self._seen = 0
@@ -98,12 +96,12 @@ class Controller:
         self._disturbance.reset()
 
     def stop(self, reason: str) -> None:
-        """Stops and stays stopped until resumed."""
+        """Stops; the stop latches until `resume`."""
         self.mode = Mode.STOPPED
         self.stop_reason = reason
 
     def hold(self, now: float) -> Tick:
-        """Zero velocity at a time [s] for want of a fresh pose; the next one goes on."""
+        """Commands zero at a time [s] because no fresh pose is there; the next pose continues."""
         self._remember(_STILL, now)
         return Tick(Mode.HOLDING, _STILL, now=now, input=_STILL)
 
@@ -123,7 +121,7 @@ class Controller:
             now: when the command will be sent [s].
 
         Returns:
-            What to send and what there is to say about it.
+            The command and the record of the tick.
         """
         tick = self._step(object_pose, tip, exposure, now)
         tick.exposure, tick.now = exposure, now
@@ -131,7 +129,7 @@ class Controller:
 
     def _step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
-            self.stop('a pose is not finite, or beyond all bounds')
+            self.stop('a pose is not finite or implausibly far away')
             return Tick(self.mode, _STILL, input=_STILL)
         if self.mode == Mode.ARMED:
             self._count_poses(now)
@@ -143,13 +141,13 @@ class Controller:
         return tick
 
     def _remember(self, velocity: Array, now: float) -> None:
-        """Keeps a command in mind; before and after tracking they are all zero."""
+        """Records a command for the predictor; before and after tracking all are zero."""
         self._sent = velocity
         if self.mode in FOLLOWING:
             self._predictor.sent(velocity, now)
 
     def prepare_next(self) -> None:
-        """Does the next tick's work that needs no pose; call it when the command has left."""
+        """Prepares the next tick's QP as far as it needs no pose; call it after sending."""
         if self.mode == Mode.TRACKING and self._model is not None:
             self._prepare(self._model, self._prepared[1] + 1)
 
@@ -160,7 +158,7 @@ class Controller:
             self._start = now + self._predictor.horizon
 
     def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
-        """Reference, prediction and plan of a tick that may move the tip."""
+        """Predicts, tracks the reference and limits the command."""
         if self.mode not in FOLLOWING or self._model is None:
             return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
         reference_time = exposure - self._start
@@ -183,7 +181,7 @@ class Controller:
         return tick
 
     def _watch_contact(self, object_pose: Array, tip: Array, gap: float) -> None:
-        """Changes between tracking and approach; `gap` [m] is that of the predicted instant."""
+        """Switches between tracking and recontact; `gap` [m] is the predicted one."""
         if self.mode not in FOLLOWING:
             return
         seen = self._slider.gap(object_pose, tip)
@@ -192,18 +190,18 @@ class Controller:
             self.stop(left)
             return
         was_apart = self.mode == Mode.RECONTACT
-        # both: a gap that closes by itself, or one that only the prediction sees, needs nothing
+        # the smaller of both: a gap that is closing, or only predicted, needs no approach
         apart = is_apart(self.settings.recontact, min(seen, gap), was_apart)
         self.mode = Mode.RECONTACT if apart else Mode.TRACKING
 
     def _move(self, predicted: Array, gap: float, reference_time: float) -> Tick:
-        """Approaches the face or solves the program, for a state at a time of the reference."""
+        """Approaches the face, or solves the QP, for a predicted state and reference time [s]."""
         assert self._model is not None
         if self.mode != Mode.RECONTACT:
             return self._solve(predicted, reference_time)
         reference, nominal = self._model.plan.at(reference_time)
-        wanted = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
-        tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=wanted)
+        velocity = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
+        tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=velocity)
         tick.nominal_input = nominal
         return tick
 
@@ -211,7 +209,7 @@ class Controller:
         return np.array([*object_pose, self._slider.contact_offset(object_pose, tip)])
 
     def _solve(self, state: Array, reference_time: float) -> Tick:
-        """Finds the input for a state (4,) at a time of the reference."""
+        """Solves the QP for a state (4,) at a reference time [s]."""
         started = clock.perf_counter()
         model = self._model
         assert model is not None
@@ -219,7 +217,7 @@ class Controller:
         deviation = state - reference
         deviation[2] = wrap_angle(deviation[2])
         self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
-        # a tip that is already off the face must not make the problem infeasible
+        # a tip that is already past the end of the face must not make the QP infeasible
         opening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
         move = self._steering.solve(
             model.programs,
@@ -231,7 +229,7 @@ class Controller:
             rotation(state[2]).T @ self._sent,
         )
         if not move.usable:
-            self.stop(f'the solver found no input (status {move.status})')
+            self.stop(f'the solver returned no usable input (status {move.status})')
         return Tick(
             self.mode,
             _STILL,
@@ -245,8 +243,8 @@ class Controller:
             planned=PlannedStates(model.plan, self._samples, move.states),
         )
 
-    def _prepare(self, model: Model, sample: int) -> None:
-        """Readies the program for a horizon that starts at a sample, if it is not ready yet."""
+    def _prepare(self, model: PreparedModel, sample: int) -> None:
+        """Loads the QP data of the horizon that starts at a sample, unless it is loaded."""
         if self._prepared == (model.model_id, sample):
             return
         # the horizon stays at the plan's last sample
@@ -255,17 +253,17 @@ class Controller:
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
-        """Turns the input into the command to send, within the safety limits."""
+        """Turns the input into a world velocity within the safety limits."""
         turn = rotation(heading)
-        wanted = turn @ tick.input
+        desired = turn @ tick.input
         tick.velocity, tick.limited = limit(
-            wanted, self._sent, tip, self.settings.limits, self.settings.period
+            desired, self._sent, tip, self.settings.limits, self.settings.period
         )
         tick.input = turn.T @ tick.velocity
 
 
 def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
-    """Samples of the plan in one horizon step: so long, or as the length of path asks for."""
+    """Plan samples per horizon step, from `horizon_step` [s] or else `horizon_length` [m]."""
     if settings.horizon_step > 0.0:
         return max(1, round(settings.horizon_step / plan.period))
     speed = math.hypot(*np.diff(plan.state[:2, :2], axis=0)[0]) / plan.period

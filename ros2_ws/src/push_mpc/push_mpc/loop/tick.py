@@ -1,4 +1,4 @@
-"""What the controller is doing, and what it tells of one tick."""
+"""Mode of the controller and the record of one tick."""
 
 import math
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from push_mpc.qp import PlannedStates
 
 
 class Mode(IntEnum):
-    """What the controller is doing; the numbers are those of push_msgs/ControllerState."""
+    """Mode of the controller; the values are those of push_msgs/ControllerState."""
 
     IDLE = 0
     ARMED = 1
@@ -27,7 +27,26 @@ FOLLOWING = (Mode.TRACKING, Mode.RECONTACT)
 
 @dataclass
 class Tick:
-    """What one tick saw, planned and did; see push_msgs/ControllerState and Horizon."""
+    """Inputs, intermediate results and output of one tick; times count from the first pose.
+
+    Attributes:
+        mode: of the controller after the tick.
+        velocity: command (2,) [m/s], world frame.
+        reference_time: time of the reference at the exposure [s].
+        exposure: time of the measurement [s].
+        now: time at which the command is sent [s].
+        state: measured [x, y, theta, p_y] (4,) [m, m, rad, m].
+        predicted: the same at the time at which the command takes effect.
+        reference: planned state (4,) at that time.
+        gap: measured distance between tip and face [m], negative in contact by overlap.
+        input: commanded [v_n, v_t] (2,) [m/s], body frame.
+        nominal_input: planned [v_n, v_t] (2,) [m/s].
+        solve_ms: duration of the QP [ms].
+        iterations: of the solver, summed over the QPs of the tick.
+        solver_status: of OSQP, 1 = solved.
+        limited: bits of `push_core.physics.limit`: which limits changed the command.
+        planned: the predicted horizon, None if no QP was solved.
+    """
 
     mode: Mode
     velocity: Array

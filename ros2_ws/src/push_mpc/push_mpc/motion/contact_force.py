@@ -17,7 +17,7 @@ from push_mpc.motion.dynamics import disturbed, to_rates
 
 @dataclass(frozen=True)
 class ContactForce:
-    """Answers for pushes of a slider by forces on its face."""
+    """Motion of a slider under a force at its face; see `Motion`."""
 
     slider: Slider
 
@@ -43,26 +43,26 @@ class ContactForce:
         return by_state, by_input
 
     def disturbed(self, state: Array, inputs: Array) -> Array:
-        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        """Derivative (n, 4, 3) of `rates` by a model error (twist per metre of travel)."""
         velocity = self._twist(state[:, 3], inputs)
         along = velocity[:, 0] - state[:, 3] * velocity[:, 2]
         aside = velocity[:, 1] + self.slider.p_x * velocity[:, 2] + inputs[:, 2]
         return disturbed(np.hypot(along, aside), state[:, 2], self.slider.tip_x)
 
     def tip_velocity(self, p_y: float, force: Array) -> Array:
-        """Velocity (2,) [m/s] in the body frame of the tip that makes an input (3,) happen."""
+        """Tip velocity (2,) [m/s] in the body frame that produces an input (3,)."""
         jacobian = contact_jacobian(self.slider.p_x, p_y)
         velocity = jacobian @ (self._weights * (jacobian.T @ force[:2]))
         velocity[1] += force[2]
         return np.asarray(velocity)
 
     def of_velocity(self, p_y: Array, velocity: Array) -> Array:
-        """The inputs (n, 3) that happen where the tip moves with velocities (n, 2) [m/s]."""
+        """Inputs (n, 3) that result from tip velocities (n, 2) [m/s] at offsets p_y (n,) [m]."""
         each = zip(p_y.tolist(), *velocity.T.tolist(), strict=True)
         return np.array([self.input_of(*one) for one in each])
 
     def input_of(self, p_y: float, v_n: float, v_t: float) -> Array:
-        """The input (3,) that happens where the tip moves with one velocity [m/s]."""
+        """Input (3,) that results from one tip velocity [m/s] at an offset p_y [m]."""
         slider = self.slider
         matrix = point_contact.mobility(slider.p_x, p_y, slider.support_radius**2)
         side = point_contact.slip_sign(matrix, slider.friction_pusher, v_n, v_t)
@@ -77,7 +77,7 @@ class ContactForce:
         return np.array([normal * scale, tangential * scale, slip])
 
     def of_speeds(self, speeds: Array) -> Array:
-        """The inputs (n, 3) whose force moves an object that does not turn at speeds (n, 4).
+        """Inputs (n, 3) from speeds (n, 4): a force is given by the translation speed it causes.
 
         Args:
             speeds: of f_n, of f_t, of the slip to the left and of that to the right [m/s].

@@ -20,7 +20,7 @@ class TravelModel(Protocol):
 
 
 class Motion(Protocol):
-    """How the state [x, y, theta, p_y] moves under some inputs."""
+    """Motion of the state [x, y, theta, p_y] under inputs (n, m)."""
 
     def rates(self, state: Array, inputs: Array) -> Array:
         """Time derivative (n, 4) of states (n, 4) under inputs (n, m)."""
@@ -29,12 +29,12 @@ class Motion(Protocol):
         """Jacobians of `rates`: by the state (n, 4, 4) and by the input (n, 4, m)."""
 
     def disturbed(self, state: Array, inputs: Array) -> Array:
-        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        """Derivative (n, 4, 3) of `rates` by a model error (twist per metre of travel)."""
 
 
 @dataclass(frozen=True)
 class TravelMotion:
-    """Motion under a tip that moves: inputs [v_n, v_t].
+    """Motion under a moving tip, inputs [v_n, v_t].
 
     Attributes:
         model: of the object.
@@ -53,7 +53,7 @@ class TravelMotion:
         return linearised(self.model, state, inputs, self.tip_x)
 
     def disturbed(self, state: Array, inputs: Array) -> Array:
-        """Derivative (n, 4, 3) of `rates` by a twist beside the model's, a metre of travel."""
+        """Derivative (n, 4, 3) of `rates` by a model error (twist per metre of travel)."""
         return disturbed(np.hypot(*inputs.T), state[:, 2], self.tip_x)
 
 
@@ -85,7 +85,7 @@ def linearised(
 
 
 def disturbed(speed: Array, heading: Array, tip_x: float) -> Array:
-    """What a twist beside the model's, a metre of travel, adds to the rates (n, 4, 3).
+    """Derivative (n, 4, 3) of the rates by a model error (twist per metre of travel).
 
     Args:
         speed: of the tip (n,) [m/s].
@@ -128,7 +128,7 @@ def to_rates(twist: Array, contact: Array, heading: Array) -> Array:
 
 
 def _contact(twist: Array, tip_x: float) -> Array:
-    """Rate of p_y (n,) beside a tip at rest."""
+    """Rate of p_y (n,) for a tip at rest."""
     return np.asarray(-twist[:, 1] - tip_x * twist[:, 2])
 
 

@@ -1,11 +1,11 @@
-"""From displacements over a push, which a model answers, to the rates of motion equations."""
+"""Converts displacements after a push, as models predict them, to twists per metre of travel."""
 
 import numpy as np
 from push_core.geometry import Array, twist_of
 
 
 def travel_rates(mean: Array, jacobian: Array, distance: float) -> tuple[Array, Array]:
-    """Twist for each metre of travel.
+    """Twist per metre of travel.
 
     Args:
         mean: displacements (n, 3) [m, m, rad] after a push, in the frame at its start.

@@ -1,4 +1,4 @@
-"""Messages to arrays and back."""
+"""Conversion between messages and arrays."""
 
 import math
 from array import array
@@ -14,7 +14,7 @@ from push_node.stamps import to_stamp
 from push_mpc.loop import Tick
 from push_mpc.plan import Plan
 from push_mpc.settings import MpcSettings
-from push_mpc.table import Answer, Question
+from push_mpc.table import Query, QueryResult
 
 
 def set_stamp(message: TwistStamped | ControllerState, stamp: int) -> None:
@@ -40,7 +40,7 @@ def fill_command(message: TwistStamped, velocity: Array) -> None:
 
 
 def fill_state(message: ControllerState, tick: Tick) -> None:
-    """Writes what a tick saw and did into a message; the node adds stamp, number and timing."""
+    """Writes the record of a tick into a message; the node adds stamp, number and timing."""
     unknown = (math.nan,) * 4
     message.mode = int(tick.mode)
     message.reference_time = tick.reference_time
@@ -58,7 +58,7 @@ def fill_state(message: ControllerState, tick: Tick) -> None:
 
 
 def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
-    """The plan up to its end, without what it adds for the horizon."""
+    """The plan up to the end of the reference, without the overrun for the horizon."""
     count = math.ceil(plan.duration / plan.period) + 1
     message = NominalTrajectory(
         track=Path(settings.track).stem,
@@ -78,21 +78,21 @@ def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
     return message
 
 
-def request_of(question: Question) -> Predict.Request:
-    """The request that asks a question."""
+def request_of(query: Query) -> Predict.Request:
+    """The service request of a query."""
     return Predict.Request(
-        p_y=_numbers(question.p_y),
-        beta=_numbers(question.beta),
-        want_variance=question.want_variance,
+        p_y=_numbers(query.p_y),
+        beta=_numbers(query.beta),
+        want_variance=query.want_variance,
     )
 
 
-def answer_of(answer: Predict.Response, distance: float) -> Answer:
-    """A response, per metre of travel."""
-    mean, jacobian = np.reshape(answer.mean, (-1, 3)), np.reshape(answer.jacobian, (-1, 3, 2))
-    return Answer.of(mean, jacobian, np.reshape(answer.variance, (-1, 3)), distance)
+def result_of(response: Predict.Response, distance: float) -> QueryResult:
+    """The result in a service response, per metre of travel."""
+    mean, jacobian = np.reshape(response.mean, (-1, 3)), np.reshape(response.jacobian, (-1, 3, 2))
+    return QueryResult.of(mean, jacobian, np.reshape(response.variance, (-1, 3)), distance)
 
 
 def _numbers(values: Array) -> 'array[float]':
-    """The one form that goes into a message without a look at each number."""
+    """Values as `array.array`, which a message takes without checking each number."""
     return array('d', np.ascontiguousarray(values, dtype=np.float64).tobytes())

@@ -1,4 +1,4 @@
-"""The planned horizon as one message that is filled in place: nothing grows with the horizon."""
+"""The predicted horizon as one message that is filled in place, without allocation per tick."""
 
 from array import array
 
@@ -8,14 +8,14 @@ from push_node.stamps import to_stamp
 
 from push_mpc.qp import PlannedStates
 
-HORIZON_EVERY = 5  # ticks; an eye needs no more
+HORIZON_EVERY = 5  # ticks, 20 Hz: enough for a viewer
 
 
 class HorizonMessage:
-    """Makes messages of planned states."""
+    """Converts planned states to a message."""
 
     def __init__(self, steps: int, step: float) -> None:
-        """Makes the message.
+        """Allocates the message.
 
         Args:
             steps: N, length of the horizon.
@@ -23,13 +23,13 @@ class HorizonMessage:
         """
         self._states, self._scratch = np.zeros((2, steps + 1, 4))
         nothing = array('d', bytes(8 * (steps + 1)))
-        told = self._message = Horizon(step=step, x=nothing, y=nothing, theta=nothing)
+        message = self._message = Horizon(step=step, x=nothing, y=nothing, theta=nothing)
         self._message.header.frame_id = 'world'
-        # the message's own numbers, which are copies of what it was given
-        self._columns = [np.frombuffer(each) for each in (told.x, told.y, told.theta)]
+        # views of the message's own buffers: the constructor copies its arguments
+        self._columns = [np.frombuffer(each) for each in (message.x, message.y, message.theta)]
 
     def of(self, planned: PlannedStates, stamp: int) -> Horizon:
-        """The message for a stamp [ns]; the next call fills the same one."""
+        """The message for a stamp [ns]; valid until the next call, which fills the same one."""
         planned.write(self._states, self._scratch)
         for column, values in zip(self._columns, self._states.T, strict=False):
             column[:] = values

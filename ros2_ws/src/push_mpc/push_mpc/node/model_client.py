@@ -1,4 +1,4 @@
-"""Gets the model from the server, as a table, without holding up the loop."""
+"""Gets the model from the server as a table, without delaying the loop."""
 
 import time
 from collections.abc import Callable
@@ -13,102 +13,118 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
 
-from push_mpc.loop import Model
-from push_mpc.node.conversions import answer_of, request_of
-from push_mpc.table import Conversation, Domain, Question, Subject, Table, Tabulated, tabulation
+from push_mpc.loop import PreparedModel
+from push_mpc.node.conversions import request_of, result_of
+from push_mpc.table import Domain, ModelScope, Query, Table, Tabulated, Tabulation, tabulation
 
-ASK_PERIOD = 0.02  # [s]
-PATIENCE = 1.0  # [s]; a request sent before both sides know each other is lost
+POLL_PERIOD = 0.02  # [s]
+RETRY_AFTER = 1.0  # [s]; a request sent before discovery has finished is lost
 
 
 @dataclass
-class _Wish:
-    """A model that was announced, and how far the conversation about it has come."""
+class _Pending:
+    """An announced model whose table is being made.
+
+    Attributes:
+        info: the announcement.
+        tabulation: generator of queries.
+        query: the one to send or to send again, None while its result is being used.
+        sent: when it was sent last, on the monotonic clock [s].
+    """
 
     info: ModelInfo
-    conversation: Conversation
-    question: Question | None
-    asked: float = -PATIENCE
+    tabulation: Tabulation
+    query: Query | None
+    sent: float = -RETRY_AFTER
 
 
 class ModelClient:
-    """Tabulates each model that is announced, and prepares it for the controller in a thread.
+    """Tabulates each announced model and prepares it for the controller in a worker thread.
 
-    The node's own thread only sends a question and takes an answer; making tables of the answers,
-    and of the tables what the controller needs, is the worker's.
+    The node's thread only sends requests and receives responses; the worker makes the table and
+    everything that the controller derives from it.
 
     Attributes:
         ready: the newest prepared model, None before the first.
-        table: what it was prepared from, None before the first.
-        problem: why there is none, for a person; empty if there is one.
+        table: its table, None before the first.
+        problem: why there is no model, in words; empty if there is one.
     """
 
-    def __init__(self, node: Node, side: float, prepare: Callable[[Table, str], Model]) -> None:
-        self.ready: Model | None = None
+    def __init__(
+        self, node: Node, side: float, prepare: Callable[[Table, str], PreparedModel]
+    ) -> None:
+        """Subscribes to announcements.
+
+        Args:
+            node: of the client.
+            side: length of the pushed face [m].
+            prepare: makes a model for the controller from a table and a model id.
+        """
+        self.ready: PreparedModel | None = None
         self.table: Tabulated | None = None
         self.problem = 'no model announced'
         self._side = side
         self._prepare = prepare
         self._worker = ThreadPoolExecutor(max_workers=1)
-        self._wish: _Wish | None = None
+        self._pending: _Pending | None = None
         self._log = node.get_logger()
         self._client = node.create_client(Predict, 'push_gp/predict')
         node.create_subscription(ModelInfo, 'model_info', self._on_model, LATCHED)
-        node.create_timer(ASK_PERIOD, self._ask, clock=Clock(clock_type=ClockType.STEADY_TIME))
+        node.create_timer(POLL_PERIOD, self._send, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def close(self) -> None:
         """Ends the thread."""
         self._worker.shutdown(wait=False, cancel_futures=True)
 
     def _on_model(self, info: ModelInfo) -> None:
-        self.problem = f'model {info.model_id} announced, its answers are under way'
+        self.problem = f'model {info.model_id} is announced, waiting for its predictions'
         data = Domain.of_data(tuple(info.p_y_domain), tuple(info.beta_domain), self._side)
-        conversation = tabulation(Subject(data, info.kind, info.mean_function, self._side))
-        self._wish = _Wish(info, conversation, next(conversation))
-        self._ask()
+        steps = tabulation(ModelScope(data, info.kind, info.mean_function, self._side))
+        self._pending = _Pending(info, steps, next(steps))
+        self._send()
 
-    def _ask(self) -> None:
-        """Sends the question that waits, again if its answer does not come."""
-        wish = self._wish
-        if wish is None or wish.question is None or not self._client.service_is_ready():
+    def _send(self) -> None:
+        """Sends the pending query, again if no response comes."""
+        pending = self._pending
+        if pending is None or pending.query is None or not self._client.service_is_ready():
             return
-        if time.monotonic() - wish.asked <= PATIENCE:
+        if time.monotonic() - pending.sent <= RETRY_AFTER:
             return
-        wish.asked = time.monotonic()
-        question = wish.question
+        pending.sent = time.monotonic()
+        query = pending.query
 
-        def on_answer(future: Future) -> None:
-            if self._wish is wish and wish.question is question:
-                wish.question = None
-                self._worker.submit(self._take, wish, future)
+        def on_response(future: Future) -> None:
+            if self._pending is pending and pending.query is query:
+                pending.query = None
+                self._worker.submit(self._take, pending, future)
 
-        self._client.call_async(request_of(question)).add_done_callback(on_answer)
+        self._client.call_async(request_of(query)).add_done_callback(on_response)
 
-    def _take(self, wish: _Wish, future: Future) -> None:
-        """In the worker, which would keep an error to itself."""
+    def _take(self, pending: _Pending, future: Future) -> None:
+        """Runs in the worker, which does not report exceptions by itself."""
         try:
-            self._go_on(wish, future.result())
+            self._continue(pending, future.result())
         except (PushError, ValueError) as error:
             self.problem = f'the model cannot be used: {error}'
         except Exception as error:  # noqa: BLE001
             self.problem = f'the model cannot be used: {error!r}'
 
-    def _go_on(self, wish: _Wish, answer: Predict.Response) -> None:
-        """Goes on with the conversation, or ends it with a model."""
-        if not answer.success:
-            self.problem = f'the model server answered: {answer.message}'
-        elif answer.model_id == wish.info.model_id:
+    def _continue(self, pending: _Pending, response: Predict.Response) -> None:
+        """Feeds a response to the tabulation; prepares the model when the table is done."""
+        if not response.success:
+            self.problem = f'the model server refused: {response.message}'
+        elif response.model_id == pending.info.model_id:
             try:
-                question = wish.conversation.send(answer_of(answer, wish.info.distance))
+                query = pending.tabulation.send(result_of(response, pending.info.distance))
             except StopIteration as done:
-                self._finish(wish.info.model_id, done.value)
+                self._finish(pending.info.model_id, done.value)
             else:
-                wish.asked = -PATIENCE
-                wish.question = question
+                pending.sent = -RETRY_AFTER
+                pending.query = query
 
     def _finish(self, model_id: str, tabulated: Tabulated) -> None:
         prepared = self._prepare(tabulated.table, model_id)
         self.table, self.problem = tabulated, ''
-        # last, for it is what the node's thread looks for
+        # last: the node's thread polls this attribute
         self.ready = prepared
         self._log.info(f'model {model_id} as a table of {tabulated}')

@@ -1,4 +1,4 @@
-"""The controller node: a pose in, a velocity out, every 10 ms."""
+"""The controller node: poses in, a tip velocity out, every 10 ms."""
 
 import math
 import sys
@@ -29,7 +29,7 @@ from push_mpc.plan import planned
 from push_mpc.settings import mpc_settings
 from push_mpc.table import Tabulated
 
-LAST_WORD_TIMEOUT = 1.0  # [s] for the last command to arrive, and for the last state
+FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
@@ -46,13 +46,13 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         lockstep = self._settings.mode == 'lockstep'
         self._poses = PosePair(self, lockstep, self._tick, self._repeat)
-        self._tick_count = self._guesses = 0
+        self._tick_count = self._extrapolations = 0
         self._table: Tabulated | None = None
         self._scheduling = ''
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
         self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
-        self._model = ModelClient(self, self._settings.slider.side, self._controller.prepared)
+        self._model = ModelClient(self, self._settings.slider.side, self._controller.prepare_model)
         self._recorder = RecorderWatch(self)
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
@@ -67,9 +67,9 @@ class MpcNode(Node):  # type: ignore[misc]
         """Leaves the tip at rest."""
         if self._controller.mode in _MOVING:
             self._halt('the controller was shut down')
-        # a publisher that goes away takes along what has not arrived
+        # a destroyed publisher drops messages that have not arrived
         for publisher in (self._commands, self._states):
-            publisher.wait_for_all_acked(Duration(seconds=LAST_WORD_TIMEOUT))
+            publisher.wait_for_all_acked(Duration(seconds=FLUSH_TIMEOUT))
         self._model.close()
         super().destroy_node()
 
@@ -91,7 +91,7 @@ class MpcNode(Node):  # type: ignore[misc]
             self.create_timer(self._watchdog.period, self._watch, clock=steady)
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
-        """Answers a new pair of poses, exposed at a stamp [ns]; times are in seconds."""
+        """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
         arrived = time.perf_counter()
         self._take_model()
         object_pose = conversions.planar_pose(self._poses.object_pose)
@@ -99,9 +99,9 @@ class MpcNode(Node):  # type: ignore[misc]
         tick = self._controller.step(object_pose, tip, exposure, now)
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
-        self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
-        self._tell_horizon(tick, stamp)
-        self._guesses += self._is_guess(tick)
+        self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._publish_horizon(tick, stamp)
+        self._extrapolations += self._extrapolates(tick)
         self._controller.prepare_next()
 
     def _send(self, tick: Tick, stamp: int) -> None:
@@ -110,11 +110,11 @@ class MpcNode(Node):  # type: ignore[misc]
         self._commands.publish(self._command)
 
     def _repeat(self) -> None:
-        """The simulator asks again: the answer to its last question got lost."""
+        """Sends the last command again: the simulator did not receive it."""
         if self._controller.mode != Mode.IDLE:
             self._commands.publish(self._command)
 
-    def _tell(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+    def _publish_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
         conversions.set_stamp(self._state, stamp)
         conversions.fill_state(self._state, tick)
         self._state.tick = self._tick_count
@@ -124,7 +124,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._states.publish(self._state)
         self._tick_count += 1
 
-    def _tell_horizon(self, tick: Tick, stamp: int) -> None:
+    def _publish_horizon(self, tick: Tick, stamp: int) -> None:
         if tick.planned is not None and self._tick_count % HORIZON_EVERY == 0:
             self._horizons.publish(self._horizon.of(tick.planned, stamp))
 
@@ -134,8 +134,8 @@ class MpcNode(Node):  # type: ignore[misc]
             self._controller.use(ready)
             self._table = self._model.table
 
-    def _is_guess(self, tick: Tick) -> bool:
-        """Whether the command rests on what the model was never trained on."""
+    def _extrapolates(self, tick: Tick) -> bool:
+        """Whether the command relies on the model outside its training data."""
         if self._table is None or tick.predicted is None or tick.input is None:
             return False
         v_n, v_t = tick.input
@@ -144,7 +144,7 @@ class MpcNode(Node):  # type: ignore[misc]
         )
 
     def _watch(self) -> None:
-        """Holds still on old poses; the poses themselves drive everything else."""
+        """Holds or stops the tip when poses are late; poses themselves drive everything else."""
         slept = self._watchdog.slept(time.monotonic())
         age = self._poses.age
         if slept or self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
@@ -156,19 +156,19 @@ class MpcNode(Node):  # type: ignore[misc]
             self._publish(self._controller.hold(now), stamp)
 
     def _halt(self, reason: str) -> None:
-        """Stops at once, without waiting for a pose to answer."""
+        """Stops at once, without waiting for a pose."""
         self._controller.stop(reason)
         self._publish(Tick(Mode.STOPPED, np.zeros(2)), self._poses.now()[0])
         self.get_logger().error(f'stopped: {reason}')
 
     def _publish(self, tick: Tick, stamp: int) -> None:
-        """Sends and tells of a tick that answers no pose."""
+        """Publishes a tick that answers no pose."""
         self._send(tick, stamp)
-        self._tell(tick, stamp, 0.0)
+        self._publish_state(tick, stamp, 0.0)
 
     def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         if self._controller.mode in _MOVING:
-            # whoever asks again because the answer got lost shall not begin anew
+            # a repeated request, whose first response was lost, must not restart the run
             answer.success, answer.message = True, 'already started'
             return answer
         self._take_model()
@@ -192,7 +192,7 @@ class MpcNode(Node):  # type: ignore[misc]
         return answer
 
     def _obstacle(self) -> str:
-        """Why nothing may move yet, empty if it may."""
+        """Why the run cannot start, empty if it can."""
         if self._controller.mode == Mode.STOPPED:
             return f'stopped: {self._controller.stop_reason}; call push_mpc/resume first'
         if not self._controller.model_id:
@@ -210,7 +210,7 @@ class MpcNode(Node):  # type: ignore[misc]
             'model': self._controller.model_id,
             'table': str(self._table or ''),
             'ticks': str(self._tick_count),
-            'outside_training_data': str(self._guesses),
+            'outside_training_data': str(self._extrapolations),
         }
         self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
 

@@ -1,4 +1,4 @@
-"""Object and tip seen at the same instant, and when that was."""
+"""Pairs the poses of object and tip that carry the same stamp."""
 
 import time
 from collections.abc import Callable
@@ -13,13 +13,13 @@ from rosgraph_msgs.msg import Clock
 class PosePair:
     """Subscribes to both poses and calls back once for each new pair.
 
-    In lockstep the clock of a tick is a third message, and the simulator repeats all three until
-    they are answered.
+    In lockstep `/clock` is a third message of the pair, and the simulator repeats all three until
+    a command answers them.
 
     Attributes:
         object_pose: newest pose of the object.
         tip: newest pose of the tip.
-        seen: whether any pair came since the node started.
+        seen: whether any pair has arrived since the node started.
     """
 
     def __init__(
@@ -33,8 +33,8 @@ class PosePair:
 
         Args:
             node: the node that listens.
-            lockstep: whether time is what /clock says.
-            on_pair: called with the stamp of the exposure [ns], the exposure and the present [s].
+            lockstep: whether /clock is the time.
+            on_pair: called with stamp of the exposure [ns], exposure [s], current time [s].
             on_repeat: called when the simulator repeats the last pair.
         """
         self.object_pose = PoseStamped()
@@ -50,7 +50,7 @@ class PosePair:
             node.create_subscription(Clock, '/clock', self._on_clock, 1)
 
     def restart(self) -> None:
-        """Forgets everything: the next pair is the first, and time [s] counts from it."""
+        """Forgets all pairs: time [s] counts from the next one."""
         self._origin = -1
         self._handled = self._handled_clock = -1
         self._clock = -1
@@ -59,11 +59,11 @@ class PosePair:
 
     @property
     def age(self) -> float:
-        """Time [s] since the last pair came, or since a restart."""
+        """Time [s] since the last pair arrived, or since a restart."""
         return time.monotonic() - self._arrival
 
     def now(self) -> tuple[int, float]:
-        """The present, as a stamp [ns] and in the seconds that the callback is given."""
+        """Current time as a stamp [ns], and in seconds since the first pair."""
         now = self._clock if self._lockstep else int(self._node_clock.now().nanoseconds)
         return now, to_seconds(now - self._origin)
 

@@ -1,4 +1,4 @@
-"""Whether the recorder of this cell is recording."""
+"""Watches whether the recorder of this cell is recording."""
 
 import time
 
@@ -10,7 +10,7 @@ _FRESH = 3.0  # [s]; the recorder reports once a second
 
 
 class RecorderWatch:
-    """Listens to the recorder's line on /diagnostics."""
+    """Follows the recorder's status on /diagnostics."""
 
     def __init__(self, node: Node) -> None:
         namespace = node.get_namespace().rstrip('/')
@@ -20,7 +20,7 @@ class RecorderWatch:
 
     @property
     def is_recording(self) -> bool:
-        """Whether it said so lately."""
+        """Whether the recorder reported OK within the last 3 s."""
         return time.monotonic() - self._last_good < _FRESH
 
     def _on_diagnostics(self, array: DiagnosticArray) -> None:

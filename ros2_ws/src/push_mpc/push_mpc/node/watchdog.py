@@ -1,24 +1,24 @@
-"""Tells a message that is late from a process that slept."""
+"""Tells late messages from a process that was itself not running."""
 
 
 class Watchdog:
-    """Looks at the clock once a period; coming late itself, it has to let others speak first.
+    """Detects that its own periodic call came late.
 
-    After a freeze of the whole host the poses of the meantime wait in the queue. To hold still for
-    want of them would stop a tip that nothing is wrong with.
+    After a freeze of the whole host, the poses of the meantime wait in the queue. Treating them as
+    missing would stop a tip for no reason, so the first check after a freeze is skipped.
     """
 
     def __init__(self, period: float) -> None:
-        """Begins to watch.
+        """Starts watching.
 
         Args:
-            period: time [s] between two looks.
+            period: time [s] between two calls.
         """
         self.period = period
         self._last = float('-inf')
 
     def slept(self, now: float) -> bool:
-        """Whether a look at a time [s] comes more than a period late; the next one may not."""
+        """Whether this call, at a time [s], is more than a period late."""
         late = self._last > float('-inf') and now - self._last > 2.0 * self.period
         self._last = now
         return late

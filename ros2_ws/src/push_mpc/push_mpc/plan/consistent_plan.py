@@ -1,10 +1,10 @@
-"""The nominal trajectory that a model itself believes in.
+"""A nominal trajectory that obeys the model's own equations of motion.
 
-The flat plan is exact for a point that sticks. A round tip rolls, friction has an edge, and a
-learned model differs from both: along the flat plan its motion drifts away. Here states and inputs
-are found that obey the model's own motion equations (at the middle of each interval) and follow
-the path as closely as these allow: Gauss-Newton steps on the whole trajectory at once, each one a
-linear system of narrow band. Nothing of it runs in the loop.
+The flat plan is exact for a sticking point contact. A round tip rolls, friction is limited, and a
+learned model differs from both, so that along the flat plan its motion drifts off. This plan obeys
+the model's equations of motion (midpoint rule) and follows the path as closely as they allow:
+Gauss-Newton steps on the whole trajectory at once, each a banded linear system. It runs once per
+model, outside the loop.
 """
 
 from dataclasses import dataclass, replace
@@ -16,11 +16,11 @@ from scipy.linalg import LinAlgError, solve_banded
 from push_mpc.motion import Motion
 from push_mpc.plan.nominal import Plan
 
-_STEP = 0.001  # [m] of path in one interval, at least
+_STEP = 0.001  # [m]; smallest length of an interval
 _ITERATIONS = 40
 _SHORTEST = 1e-3  # of a Gauss-Newton step
-_DONE = 1e-3  # relative gain of a step that is not worth another one
-_SLACK = 2e-6  # [m], [rad]: what an interval may miss of the motion equations
+_DONE = 1e-3  # relative decrease of the merit that ends the iteration
+_SLACK = 2e-6  # [m], [rad]; largest accepted defect of an interval
 _DEFECT_PRICE = 1e3
 _LARGEST_CHANGE = 0.5  # of [v_n, v_t] / speed from the guess
 _DAMPING = 1e-5  # of a change of [v_n, v_t] / speed
@@ -28,7 +28,7 @@ _DAMPING = 1e-5  # of a change of [v_n, v_t] / speed
 NX, NU = 4, 2
 _STAGE = NX + NX + NU
 _STATE, _INPUT = slice(NX, 2 * NX), slice(2 * NX, _STAGE)
-_REACH = _STAGE  # of the farthest entry from the diagonal: from an input to the next one
+_REACH = _STAGE  # half bandwidth: an input couples to the next one
 # for each metre of path: position [1/m^2], angle between face normal and path [1/rad^2],
 # p_y [1/m^2]; and the change of [v_n, v_t] / speed for each metre [m^2]
 _STATE_WEIGHTS = np.array([1e7, 1e7, 1.0, 300.0])
@@ -47,24 +47,24 @@ class _Trajectory:
 
 
 def consistent_plan(plan: Plan, motion: Motion) -> Plan:
-    """The plan that keeps to a motion's own equations, from the same start along the same path.
+    """Re-plans from the same start along the same path with a motion's own equations.
 
     Args:
-        plan: with tip velocities as inputs; the first guess, and the path.
+        plan: initial guess and path; inputs are tip velocities.
         motion: under tip velocities.
 
     Returns:
-        The new plan, or the given one where none was found, or only one that slides a lot.
+        The new plan; the given one if the iteration fails or its result slides a lot.
     """
     problem = _Problem(plan, motion)
-    found = problem.solved()
-    if found is None or problem.departs(found):
+    result = problem.solved()
+    if result is None or problem.departs(result):
         return plan
-    return problem.sampled(found)
+    return problem.sampled(result)
 
 
 class _Problem:
-    """What is minimised: least squares about a target, subject to the motion equations."""
+    """Least squares about a target trajectory, subject to the equations of motion."""
 
     def __init__(self, plan: Plan, motion: Motion) -> None:
         moved = np.hypot(*np.diff(plan.state[:, :2], axis=0).T)
@@ -82,7 +82,7 @@ class _Problem:
         self._smooth = _CHANGE_WEIGHT / self._width
 
     def solved(self) -> _Trajectory | None:
-        """The trajectory, None where the steps do not lead to one."""
+        """The trajectory, None if the iteration does not converge."""
         now, merit = self._guess, self._merit(self._guess)
         for _ in range(_ITERATIONS):
             try:
@@ -98,27 +98,27 @@ class _Problem:
                 break
         return now if np.abs(self._defect(now)).max() < _SLACK else None
 
-    def departs(self, found: _Trajectory) -> bool:
-        """Whether its inputs leave the guess so far that the contact slides a lot.
+    def departs(self, result: _Trajectory) -> bool:
+        """Whether its inputs differ so much from the guess that the contact slides a lot.
 
-        There the model is known least: on corners that are tighter than sticking allows, the
-        error with such a plan is half as large again as with the flat one.
+        Sliding is where models are least accurate: in corners tighter than sticking allows, such
+        a plan has 1.5 times the tracking error of the flat one.
         """
-        return bool(np.abs(found.input - self._guess.input).max() > _LARGEST_CHANGE)
+        return bool(np.abs(result.input - self._guess.input).max() > _LARGEST_CHANGE)
 
     def _share(self, now: _Trajectory, change: _Trajectory, merit: float) -> float:
-        """How much of a step makes things better."""
+        """Step length in (0, 1] that decreases the merit; below _SHORTEST if none does."""
         share = 1.0
         while share >= _SHORTEST and not self._merit(now.moved(change, share)) < merit:
             share *= 0.5
         return share
 
-    def sampled(self, found: _Trajectory) -> Plan:
+    def sampled(self, result: _Trajectory) -> Plan:
         """The trajectory at every sample of the plan."""
         time, knots = np.arange(len(self._plan.state)), self._knots
         middles = 0.5 * (knots[1:] + knots[:-1])
-        state = [np.interp(time, knots, column) for column in found.state.T]
-        inputs = [np.interp(time, middles, column) for column in self._speed * found.input.T]
+        state = [np.interp(time, knots, column) for column in result.state.T]
+        inputs = [np.interp(time, middles, column) for column in self._speed * result.input.T]
         return replace(self._plan, state=np.stack(state, axis=-1), input=np.stack(inputs, axis=-1))
 
     def _merit(self, at: _Trajectory) -> float:
@@ -128,15 +128,15 @@ class _Problem:
         return float((self._weights * error**2).sum() + smooth + _DEFECT_PRICE * missed)
 
     def _defect(self, at: _Trajectory) -> Array:
-        """What each interval misses of the motion equations (m, 4)."""
+        """Defect of the equations of motion in each interval (m, 4)."""
         middle = 0.5 * (at.state[1:] + at.state[:-1])
         rates = self._motion.rates(middle, self._speed * at.input)
         return np.asarray(np.diff(at.state, axis=0) - self._interval * rates)
 
     def _step(self, at: _Trajectory) -> _Trajectory:
-        """The Gauss-Newton step: a quadratic program without inequalities.
+        """The Gauss-Newton step: a QP with equality constraints only.
 
-        Its unknowns stand stage by stage: four multipliers, the state, the input.
+        The unknowns are ordered by stage: four multipliers, the state, the input.
         """
         right = np.zeros((len(at.state), _STAGE))
         right[1:, :NX] = self._defect(at)
@@ -150,7 +150,7 @@ class _Problem:
         return _Trajectory(stages[:, _STATE], stages[:-1, _INPUT])
 
     def _system(self, at: _Trajectory) -> Array:
-        """The optimality conditions as a band (2 reach + 1, unknowns)."""
+        """The optimality conditions as a banded matrix (2 reach + 1, unknowns)."""
         middle = 0.5 * (at.state[1:] + at.state[:-1])
         by_state, by_input = self._motion.linearised(middle, self._speed * at.input)
         half = 0.5 * self._interval * by_state
@@ -203,7 +203,7 @@ class _Band:
 
 
 def _target(state: Array) -> Array:
-    """Where the states (m + 1, 4) had best be: on the path, facing along it, p_y = 0."""
+    """Target states (m + 1, 4): on the path, heading along it, p_y = 0."""
     x, y, heading, _ = state.T
     along = np.unwrap(np.arctan2(np.gradient(y), np.gradient(x)))
     along += 2.0 * np.pi * np.round((heading[0] - along[0]) / (2.0 * np.pi))

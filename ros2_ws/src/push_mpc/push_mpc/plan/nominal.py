@@ -21,12 +21,12 @@ _LARGEST_TURN = math.radians(45.0)  # between two samples; more is a corner
 
 
 class TooTightError(InputError):
-    """The flat solution cannot follow the track."""
+    """Sticking at the middle of the face cannot follow the track."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A timed reference, sampled every `period`; it runs on past its end for the horizon.
+    """A timed reference, sampled every `period`; it extends past its end for the horizon.
 
     Attributes:
         period: time between samples [s].
@@ -64,12 +64,12 @@ def flat_plan(
         track: path of the object's centre.
         speed: of the centre [m/s].
         slider: the pushed square.
-        laps: rounds of the track.
+        laps: number of laps.
         period: time between samples [s].
-        overrun: time [s] for which the plan goes on after its end.
+        overrun: time [s] by which the plan extends past its end.
 
     Raises:
-        TooTightError: the path asks for a force outside the friction cone.
+        TooTightError: the path needs a force outside the friction cone.
     """
     duration = laps * track.length / speed
     samples = math.ceil((duration + overrun) / period) + 1
@@ -117,7 +117,7 @@ def _side_slip(track: Track, s: Array, slip_length: float) -> Array:
 
 
 def _grid(track: Track, s: Array, settled: float) -> Array:
-    """Steps that hit every sample and every jump of the curvature."""
+    """Arc lengths of the integration steps: all samples and all jumps of the curvature."""
     count = math.ceil((s[1] - s[0]) / _LONGEST_STEP)
     fine = np.linspace(s[0], s[-1], (s.size - 1) * count + 1)
     fine[::count] = s
@@ -145,14 +145,14 @@ def _step_back(alpha: float, curvature: Array, width: float, slip_length: float)
 
 
 def _check_friction(track: Track, s: Array, alpha: Array, slider: Slider) -> None:
-    """At p_y = 0 the force has the direction of travel, which has to be in the friction cone."""
+    """At p_y = 0 the force has the direction of travel; it must be inside the friction cone."""
     worst = int(np.argmax(np.abs(alpha)))
     if abs(alpha[worst]) > math.atan(slider.friction_pusher):
         _refuse(track, s[worst], slider)
 
 
 def _check_turns(track: Track, s: Array, heading: Array, slider: Slider) -> None:
-    """A corner has no curvature that could be too large."""
+    """Refuses corners, which the curvature does not show."""
     turns = np.abs(np.diff(heading))
     if turns.max() > _LARGEST_TURN:
         _refuse(track, s[int(np.argmax(turns))], slider)
@@ -161,6 +161,6 @@ def _check_turns(track: Track, s: Array, heading: Array, slider: Slider) -> None
 def _refuse(track: Track, place: float, slider: Slider) -> None:
     tightest = _slip_length(slider) / math.sin(math.atan(slider.friction_pusher))
     raise TooTightError(
-        f'track {track.name} turns too tightly near {place * 1e3:.0f} mm along it: pushed at '
-        f'the middle of its face this square goes round a radius of {tightest * 1e3:.0f} mm'
+        f'track {track.name} turns too tightly near {place * 1e3:.0f} mm along it: with sticking '
+        f'contact at the middle of the face the smallest radius is {tightest * 1e3:.0f} mm'
     )

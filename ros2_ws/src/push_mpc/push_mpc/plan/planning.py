@@ -1,4 +1,4 @@
-"""From the node's parameters to the plan that it tracks."""
+"""Makes the plan that the node's parameters ask for."""
 
 import math
 
@@ -8,7 +8,7 @@ from push_core.common import InputError
 from push_core.physics import SafetyLimits
 
 from push_mpc.plan.nominal import Plan, TooTightError, flat_plan
-from push_mpc.plan.optimal_plan import Task, optimal_plan
+from push_mpc.plan.task import PlanningTask
 from push_mpc.settings import MpcSettings
 
 _PLACES = 1000
@@ -16,7 +16,7 @@ _MARGIN = 0.5  # [s] beyond horizon and delay
 
 
 def planned(settings: MpcSettings) -> Plan:
-    """The plan along the track that the settings name.
+    """Plans along the track that the settings name.
 
     Raises:
         InputError: an unknown track, one that cannot be pushed or leaves the workspace, or too
@@ -40,7 +40,7 @@ def planned(settings: MpcSettings) -> Plan:
 def _plan(settings: MpcSettings, track: tracks.Track) -> Plan:
     task = _task(settings, track)
     if settings.planner == 'optimal' or task.headings != (None, None):
-        return optimal_plan(task)
+        return _optimal(task)
     try:
         return flat_plan(
             track, settings.speed, settings.slider, settings.laps, settings.period, task.overrun
@@ -48,11 +48,18 @@ def _plan(settings: MpcSettings, track: tracks.Track) -> Plan:
     except TooTightError:
         if settings.planner == 'flat':
             raise
-        return optimal_plan(task)
+        return _optimal(task)
+
+
+def _optimal(task: PlanningTask) -> Plan:
+    # casadi takes 0.1 s to import, and few runs need it
+    from push_mpc.plan.optimal_plan import optimal_plan  # noqa: PLC0415
+
+    return optimal_plan(task)
 
 
 def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
-    """What the plan asks of the pusher has to be within its limits everywhere."""
+    """Checks the planned pusher motion against the limits."""
     tracked = plan.time <= plan.duration
     v_n, v_t = np.abs(plan.input[tracked].T)
     p_y = np.abs(plan.state[tracked, 3])
@@ -73,9 +80,9 @@ def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
             )
 
 
-def _task(settings: MpcSettings, track: tracks.Track) -> Task:
+def _task(settings: MpcSettings, track: tracks.Track) -> PlanningTask:
     delay = settings.actuator.dead_time + settings.actuator.lag
-    return Task(
+    return PlanningTask(
         track=track,
         speed=settings.speed,
         slider=settings.slider,
@@ -91,7 +98,7 @@ def _task(settings: MpcSettings, track: tracks.Track) -> Task:
 
 
 def _heading(name: str, text: str) -> float | None:
-    """A heading [rad] from degrees, None for a free one."""
+    """A heading [rad] from a text in degrees, None for `free`."""
     if text == 'free':
         return None
     try:
@@ -104,7 +111,7 @@ def _heading(name: str, text: str) -> float | None:
 
 
 def _check_workspace(track: tracks.Track, limits: SafetyLimits) -> None:
-    """A file in millimetres would otherwise make a plan of hours."""
+    """Checks the track's extent; a file in millimetres would make a plan of hours."""
     x, y, _, _ = track.at(np.linspace(0.0, track.length, _PLACES, endpoint=False))
     if np.abs(x).max() > limits.workspace_x or np.abs(y).max() > limits.workspace_y:
         raise InputError(

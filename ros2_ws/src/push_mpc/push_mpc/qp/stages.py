@@ -92,7 +92,7 @@ class Stages:
         b = preview.effect * (space.scale / STATE_SCALE[:, None])
         entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * space.size)], axis=-1)
         if not (np.isfinite(entries).all() and np.isfinite(preview.drift).all()):
-            raise InputError('by the model the object moves beyond all bounds')
+            raise InputError('the model returned implausibly large displacement rates')
         low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
         scale = np.concatenate([STATE_SCALE, space.scale])[:, None]
         return cls(space, -entries, preview.drift / scale[:NX], preview.target / scale, low, high)

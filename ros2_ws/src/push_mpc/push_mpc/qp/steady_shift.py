@@ -38,6 +38,6 @@ def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
     try:
         solved = np.linalg.solve(damped, worth * by_twist)
     except np.linalg.LinAlgError as error:
-        raise InputError('by the model the object moves beyond all bounds') from error
+        raise InputError('the model returned implausibly large displacement rates') from error
     change = -ease[:, :, None] * (turned @ solved)
     return np.concatenate([np.zeros_like(change[:, :2]), change], axis=1)

@@ -55,7 +55,7 @@ class ControllerSettings:
 
     controller: str = setting(
         'gp',
-        'gp: by the model of the server; analytical: by the limit surface, Family of Modes',
+        'gp: model of the server; analytical: limit surface, Family of Modes',
         choices=('gp', 'analytical'),
     )
     period: float = setting(0.01, 'time between two ticks', unit='s', low=0.001, high=0.1)
@@ -77,11 +77,11 @@ class ControllerSettings:
     )
     tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
     consistent_plan: bool = setting(
-        True, "plan anew with the model's own motion equations when a model arrives"
+        True, "re-plan with the model's own motion equations when a model arrives"
     )
     disturbance_length: float = setting(
         0.05,
-        'travel over which the model error is estimated; 0 leaves it out',
+        'filter length of the model-error estimate; 0 switches it off',
         unit='m',
         low=0.0,
         high=10.0,

@@ -1,4 +1,4 @@
-"""Parameters of the controller node: those of the controller, and what it shall track."""
+"""Parameters of mpc_node: those of the controller, the track, and the node's own."""
 
 from dataclasses import dataclass, replace
 
@@ -31,16 +31,20 @@ class MpcSettings(ControllerSettings):
         'irb120', 'robot whose lag the predictor assumes', choices=tuple(ACTUATORS)
     )
     preset: str = setting(
-        'tuned', 'bundle of defaults; paper: the literal weights, h and N', choices=PRESETS
+        'tuned', 'bundle of defaults; paper: the weights, h and N of the paper', choices=PRESETS
     )
     mode: str = setting(
-        'realtime', 'what the clock is: the wall or /clock', choices=('realtime', 'lockstep')
+        'realtime', 'clock: the system clock, or /clock', choices=('realtime', 'lockstep')
     )
     pose_timeout: float = setting(
-        0.03, 'age of the newest pose from which it holds still', unit='s', low=0.011, high=1.0
+        0.03,
+        'age of the newest pose from which the tip is held',
+        unit='s',
+        low=0.011,
+        high=1.0,
     )
     pose_loss: float = setting(
-        0.5, 'age of the newest pose at which it stops for good', unit='s', low=0.011, high=10.0
+        0.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
     require_recorder: bool = setting(True, 'start only while the recorder records')
     slider: Slider = nested(Slider())
@@ -50,7 +54,7 @@ class MpcSettings(ControllerSettings):
 
 
 def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
-    """The node's defaults with robot and preset; validation names one that is unknown."""
+    """Defaults for a robot profile and a preset; an unknown name is left to validation."""
     actuator = ACTUATORS.get(profile, MpcSettings().actuator)
     robot = replace(MpcSettings(), profile=profile, preset=preset, actuator=actuator)
     return with_preset(robot, preset)

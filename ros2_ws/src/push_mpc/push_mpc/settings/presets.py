@@ -1,7 +1,7 @@
 """Bundles of the controller's defaults.
 
-`tuned` is what the settings say. `paper` has the literal weights, step and horizon of Bauza, Hogan
-and Rodriguez 2018 and none of what was added since: docs/control.md says how far that tracks.
+`tuned`: the defaults of the settings. `paper`: the weights, step and horizon of Bauza, Hogan and
+Rodriguez 2018 without later additions; docs/control.md states its errors.
 """
 
 from dataclasses import replace

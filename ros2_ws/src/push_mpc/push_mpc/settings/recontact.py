@@ -1,8 +1,7 @@
-"""Loss of contact: whether the tip pushes, and how it comes back to the face.
+"""Recontact: detects a lost contact and steers the tip back to the face.
 
-The program knows no tip off the face: it would plan as if each command moved the object. While
-there is a gap, the tip approaches the planned contact point at a bounded speed instead, along the
-face first where it would miss it; once it touches, the program catches up with the reference.
+The QP assumes contact. While there is a gap, the tip instead approaches the planned contact point
+at a bounded speed, first along the face if it would miss it; after touching, the QP resumes.
 """
 
 from dataclasses import dataclass
@@ -12,11 +11,11 @@ from push_core.common import setting, validate
 from push_core.geometry import Array
 from push_core.physics import Slider
 
-_TOUCH = 5e-4  # [m]; a gap that counts as contact again
-_APPROACH_TIME = 0.05  # [s] in which the rest of the way would be gone
+_TOUCH = 5e-4  # [m]; gap below which contact is regained
+_APPROACH_TIME = 0.05  # [s]; time constant of the approach
 _SLOWEST = 0.02  # [m/s]
-_FACE_SHARE = 0.9  # of the face that the tip approaches
-_BEHIND = 5e-3  # [m] inside the line of the face where no face can be
+_FACE_SHARE = 0.9  # of the face; outside it the tip moves along the face only
+_BEHIND = 5e-3  # [m]; a tip this far past the face line is not in front of the face
 
 
 @dataclass(frozen=True)
@@ -35,19 +34,25 @@ class RecontactSettings:
 
 
 def is_apart(settings: RecontactSettings, gap: float, was_apart: bool) -> bool:
-    """Whether a tip at a gap [m] has to approach first; it then does so until it touches."""
+    """Whether contact is lost, with hysteresis: lost above `gap`, regained at touch."""
     return gap > (_TOUCH if was_apart else settings.gap)
 
 
 def departure(slider: Slider, gap: float, p_y: float) -> str:
-    """Why a tip at a gap [m] and contact offset p_y [m] can push no more, empty if it can."""
+    """Why the tip can no longer reach the face; empty if it can.
+
+    Args:
+        slider: geometry of slider and tip.
+        gap: between tip and face [m].
+        p_y: contact offset [m].
+    """
     if gap > -_BEHIND:
         return ''
     if gap < -slider.side - slider.tip_radius:
         return 'the pusher is behind the object; it has left the pushed face for good'
     if abs(p_y) > 0.5 * slider.side:
         return 'the pusher is beside the object; it has left the pushed face for good'
-    # inside the object, where it cannot be: a picture that froze, and soon mends
+    # inside the object, which is impossible: a frozen camera image; the next pose decides
     return ''
 
 
@@ -60,8 +65,8 @@ def approach(
         settings: bounds.
         slider: geometry of slider and tip.
         gap: between tip and face [m].
-        p_y: where the tip would touch [m].
-        target: where it shall [m].
+        p_y: current contact offset [m].
+        target: desired contact offset [m].
     """
     faces = abs(p_y) < _FACE_SHARE * 0.5 * slider.side
     v_n = max(gap / _APPROACH_TIME, _SLOWEST) if faces else 0.0

@@ -3,21 +3,21 @@
 from push_mpc.table.domain import Domain
 from push_mpc.table.surrogate import Table
 from push_mpc.table.tabulation import (
-    Answer,
-    Conversation,
-    Question,
-    Subject,
+    ModelScope,
+    Query,
+    QueryResult,
     Tabulated,
+    Tabulation,
     tabulation,
 )
 
 __all__ = [
-    'Answer',
-    'Conversation',
     'Domain',
-    'Question',
-    'Subject',
+    'ModelScope',
+    'Query',
+    'QueryResult',
     'Table',
     'Tabulated',
+    'Tabulation',
     'tabulation',
 ]

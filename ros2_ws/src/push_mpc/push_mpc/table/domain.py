@@ -1,4 +1,4 @@
-"""The pushes that a model was trained on span a domain, which is not always where it is asked."""
+"""The range of inputs that training data cover, and grids of queries over it."""
 
 from dataclasses import dataclass
 
@@ -8,15 +8,15 @@ from push_core.geometry import Array
 from push_mpc.table.surrogate import Grid
 
 SMALLEST = np.array([1e-3, 1e-2])
-"""Half the extent [m, rad] that even a single push spans."""
+"""Smallest half width [m, rad] of a domain; a single push has none of its own."""
 
 GRAZING = 0.01
-"""Angle [rad] to the face below which a tip no longer pushes."""
+"""Angle [rad] to the face below which the tip does not push."""
 
 
 @dataclass(frozen=True)
 class Domain:
-    """A rectangle of pushes.
+    """A rectangle in [p_y, beta].
 
     Attributes:
         low: (2,) lowest p_y [m] and beta [rad].
@@ -28,7 +28,7 @@ class Domain:
 
     @classmethod
     def of_data(cls, p_y: tuple[float, float], beta: tuple[float, float], side: float) -> 'Domain':
-        """From the extent of the training data, as far as it lies on the face of a side [m]."""
+        """The extent of training data, clipped to a face of length `side` [m]."""
         low, high = np.clip(p_y, -0.5 * side, 0.5 * side)
         ends = np.array([[low, beta[0]], [high, beta[1]]])
         middle, half = ends.mean(axis=0), np.maximum(0.5 * (ends[1] - ends[0]), SMALLEST)
@@ -36,21 +36,21 @@ class Domain:
 
     @classmethod
     def of_face(cls, side: float) -> 'Domain':
-        """The whole face of a side [m], and all directions into it."""
+        """The whole face of length `side` [m] and all directions into it."""
         high = np.array([0.5 * side, np.pi - GRAZING])
         return cls(np.array([-high[0], GRAZING]), high)
 
     def covers(self, p_y: float, beta: float) -> bool:
-        """Whether a push lies within."""
+        """Whether a push lies inside."""
         (p_low, b_low), (p_high, b_high) = self.low, self.high
         return bool(p_low <= p_y <= p_high and b_low <= beta <= b_high)
 
     def grid(self, size: tuple[int, int]) -> Grid:
-        """An even grid over all of it."""
+        """An even grid over the domain."""
         return Grid(*(np.linspace(*ends) for ends in zip(self.low, self.high, size, strict=True)))
 
     def scattered(self, count: int) -> tuple[Array, Array]:
-        """Even without a pattern that a grid could share: (count,) p_y and (count,) beta.
+        """A low-discrepancy set of points that no grid shares: p_y and beta, each (count,).
 
         Source: Roberts 2018, the R2 sequence.
         """

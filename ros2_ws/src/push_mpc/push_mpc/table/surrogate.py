@@ -1,7 +1,8 @@
-"""The model as a table: bicubic in [p_y, beta], instant to evaluate at any training size.
+"""The model as a bicubic lookup table over [p_y, beta].
 
-Values and first derivatives at the grid points come from the model itself, the mixed derivative
-from central differences of its Jacobian (bicubic Hermite interpolation).
+Its cost does not depend on the size of the training set. Values and first derivatives at the grid
+points are the model's, the mixed derivative is a central difference of its Jacobian (bicubic
+Hermite interpolation).
 """
 
 from dataclasses import dataclass
@@ -13,13 +14,12 @@ from push_core.geometry import Array
 # Hermite basis on [0, 1]: rows are powers of t; columns value at 0, value at 1, slope at 0, at 1
 _HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=float)
 _EXPONENTS = np.array([1.0, 2.0, 3.0])
-# rate, or its change for a metre or a radian; those of a real push stay below a thousand
-_LARGEST = 1e9
+_LARGEST = 1e9  # rate [1, 1, rad/m], or its derivative; real pushes stay below 1000
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Where the model is asked: an even grid over its domain.
+    """An even grid over the domain of a model.
 
     Attributes:
         p_y: contact offsets (m,) [m].
@@ -36,23 +36,23 @@ class Grid:
 
 
 class Table:
-    """Bicubic interpolation of displacement rates; inputs outside the grid go to its edge."""
+    """Bicubic interpolation of displacement rates; inputs are clamped to the grid."""
 
     def __init__(self, grid: Grid, mean: Array, jacobian: Array) -> None:
         """Builds the table.
 
         Args:
-            grid: where the model was asked.
+            grid: of the queries.
             mean: displacement rates (m * k, 3) at `grid.points()` [1, 1, rad/m].
             jacobian: their derivatives (m * k, 3, 2) by [p_y, beta].
 
         Raises:
-            InputError: an answer is not finite, or beyond all bounds.
+            InputError: a value is not finite or implausibly large.
         """
         if not (np.isfinite(mean).all() and np.isfinite(jacobian).all()):
-            raise InputError('the model answered with numbers that are not finite')
+            raise InputError('the model returned values that are not finite')
         if max(np.abs(mean).max(), np.abs(jacobian).max()) > _LARGEST:
-            raise InputError('by the model the object moves beyond all bounds')
+            raise InputError('the model returned implausibly large displacement rates')
         self._grid = grid
         self._low = np.array([grid.p_y[0], grid.beta[0]])
         self._step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
@@ -78,7 +78,7 @@ class Table:
         return np.ascontiguousarray(_HERMITE @ corners @ _HERMITE.T)
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
-        """Rates (n, 3) [1, 1, rad/m] and Jacobian (n, 3, 2) at offsets and directions (n,).
+        """Rates (n, 3) [1, 1, rad/m] and Jacobian (n, 3, 2) at p_y [m] and beta [rad], each (n,).
 
         Outside the grid the derivative across its edge is 0.
         """
@@ -92,7 +92,7 @@ class Table:
         return rates[..., 0], rates[..., 1:]
 
     def rate(self, p_y: float, beta: float) -> tuple[float, float, float]:
-        """Displacement rates at one point, for the predictor's loop."""
+        """Displacement rates [1, 1, rad/m] at one point; fast for a single query."""
         (p_low, b_low), (p_step, b_step), (p_cells, b_cells) = self._axes
         t, i = _unit(p_y, p_low, p_step, p_cells)
         u, j = _unit(beta, b_low, b_step, b_cells)

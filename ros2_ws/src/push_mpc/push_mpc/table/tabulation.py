@@ -1,7 +1,8 @@
-"""Asks a model until a table of it is exact enough: a conversation, whoever carries the questions.
+"""Refines a lookup table of a model until it is accurate enough.
 
-The table's error is measured between its grid points against the model itself, in the model's own
-standard deviations: an error much smaller than the model's doubt is none.
+`tabulation` is a generator: it yields queries and is sent their results, so that a ROS client or a
+direct call can drive it. The table is compared with the model between its grid points, in units of
+the model's standard deviation: errors well below that are accepted.
 """
 
 from collections.abc import Generator
@@ -23,17 +24,17 @@ TOLERANCE = 0.05
 
 CHECKS = 256
 MOST_AT_ONCE = 4096
-"""Pushes in one question: so few that an answer does not hold up the 10 ms loop."""
+"""Pushes in one query; few enough that its result does not delay the 10 ms loop."""
 
 
 @dataclass(frozen=True)
-class Question:
-    """A batch of pushes to ask the model about.
+class Query:
+    """A batch of pushes to evaluate the model at.
 
     Attributes:
         p_y: (n,) contact offsets [m].
         beta: (n,) push directions [rad].
-        want_variance: whether its doubt is asked for too.
+        want_variance: whether the variance is needed.
     """
 
     p_y: Array
@@ -42,13 +43,13 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answer:
-    """Of the model, per metre of travel.
+class QueryResult:
+    """The result of a query, per metre of travel.
 
     Attributes:
         mean: (n, 3) displacement rates [1, 1, rad/m].
         jacobian: (n, 3, 2) their derivatives by [p_y, beta].
-        variance: (n, 3) of the rates, (0, 3) where nobody asked.
+        variance: (n, 3) of the rates, (0, 3) if the query did not want it.
     """
 
     mean: Array
@@ -56,20 +57,20 @@ class Answer:
     variance: Array
 
     @classmethod
-    def of(cls, mean: Array, jacobian: Array, variance: Array, distance: float) -> 'Answer':
-        """From what the model says of a push of a distance [m]."""
+    def of(cls, mean: Array, jacobian: Array, variance: Array, distance: float) -> 'QueryResult':
+        """From displacements after a push of length `distance` [m], as the model returns them."""
         return cls(*travel_rates(mean, jacobian, distance), variance / distance**2)
 
 
 @dataclass(frozen=True)
 class Tabulated:
-    """A table and how good it is.
+    """A table and its accuracy.
 
     Attributes:
         table: of the model.
         size: grid points along p_y and along beta.
-        error: largest one found, in standard deviations of the model; NaN where it states none.
-        data: what the model was trained on; elsewhere it guesses.
+        error: largest one measured, in standard deviations; NaN if the model has no variance.
+        data: domain of the training data.
     """
 
     table: Table
@@ -80,22 +81,22 @@ class Tabulated:
     def __str__(self) -> str:
         size = f'{self.size[0]} x {self.size[1]} points'
         if np.isnan(self.error):
-            return f'{size}; the model states no deviation to measure its error by'
+            return f'{size}; the model has no variance to compare errors with'
         return f'{size}, error at most {self.error:.2g} standard deviations of the model'
 
 
-Conversation: TypeAlias = Generator[Question, Answer, Tabulated]
+Tabulation: TypeAlias = Generator[Query, QueryResult, Tabulated]
 
 
 @dataclass(frozen=True)
-class Subject:
-    """What has to be known of a model before it is asked.
+class ModelScope:
+    """What a table of a model has to cover.
 
     Attributes:
-        data: what it was trained on.
-        kind: gp or analytical; the analytical model states no variance.
-        mean_function: zero or analytical: what it expects far from all data.
-        side: of the square [m].
+        data: domain of the training data.
+        kind: gp or analytical; the analytical model has no variance.
+        mean_function: zero or analytical: the prediction far from all data.
+        side: length of the pushed face [m].
     """
 
     data: Domain
@@ -104,44 +105,44 @@ class Subject:
     side: float
 
     @property
-    def asked(self) -> Domain:
-        """Where the table holds; beyond it, its edge does.
+    def covered(self) -> Domain:
+        """Domain of the table; inputs outside are clamped to its edge.
 
-        Far from the data a zero mean says that nothing moves, where the edge of the data is the
-        better guess; the motion cone knows the whole face.
+        Far from the data a zero mean predicts no motion, so that the edge of the data is the
+        better guess; the motion cone holds on the whole face.
         """
         return self.data if self.mean_function == 'zero' else Domain.of_face(self.side)
 
 
-def tabulation(subject: Subject) -> Conversation:
-    """Refines a table until it is exact enough, or the finest grid is reached.
+def tabulation(scope: ModelScope) -> Tabulation:
+    """Refines a table until it is accurate enough or has the finest grid.
 
-    The table of a model that states no variance is not refined.
+    The table of a model without variance is not refined.
 
     Raises:
-        InputError: an answer is not finite.
+        InputError: a result is not finite.
     """
-    checks = subject.asked.scattered(CHECKS)
-    known = subject.kind == 'gp'
-    truth = yield Question(*checks, want_variance=known)
+    checks = scope.covered.scattered(CHECKS)
+    known = scope.kind == 'gp'
+    truth = yield Query(*checks, want_variance=known)
     deviation = np.sqrt(np.maximum(truth.variance, np.finfo(float).tiny))
     for size in GRIDS:
-        grid = subject.asked.grid(size)
-        table = Table(grid, *(yield from _asked(grid)))
+        grid = scope.covered.grid(size)
+        table = Table(grid, *(yield from _evaluated(grid)))
         if not known:
-            return Tabulated(table, size, float('nan'), subject.data)
+            return Tabulated(table, size, float('nan'), scope.data)
         error = float(np.max(np.abs(table.evaluate(*checks)[0] - truth.mean) / deviation))
         if error <= TOLERANCE:
             break
-    return Tabulated(table, size, error, subject.data)
+    return Tabulated(table, size, error, scope.data)
 
 
-def _asked(grid: Grid) -> Generator[Question, Answer, tuple[Array, Array]]:
-    """The answers at all points of a grid, a part at a time."""
+def _evaluated(grid: Grid) -> Generator[Query, QueryResult, tuple[Array, Array]]:
+    """Mean and Jacobian at all points of a grid, queried in parts."""
     p_y, beta = grid.points()
-    answers = []
+    results = []
     for first in range(0, p_y.size, MOST_AT_ONCE):
         part = slice(first, first + MOST_AT_ONCE)
-        answers.append((yield Question(p_y[part], beta[part])))
-    mean = np.concatenate([answer.mean for answer in answers])
-    return mean, np.concatenate([answer.jacobian for answer in answers])
+        results.append((yield Query(p_y[part], beta[part])))
+    mean = np.concatenate([result.mean for result in results])
+    return mean, np.concatenate([result.jacobian for result in results])
