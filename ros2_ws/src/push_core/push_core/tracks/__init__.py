@@ -1,5 +1,5 @@
 """Tracks: paths of the object by arc length, built in or read from CSV."""
 
-from push_core.tracks.track import TRACKS, Track, by_name
+from push_core.tracks.track import TRACKS, ArcTrack, Track, by_name
 
-__all__ = ['TRACKS', 'Track', 'by_name']
+__all__ = ['TRACKS', 'ArcTrack', 'Track', 'by_name']
