@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from push_core.geometry.frames import rotation, to_body, to_world, wrap_angle
+from push_core.geometry.frames import (
+    points_to_body,
+    rotation,
+    to_body,
+    to_world,
+    wrap_angle,
+    wrap_angles,
+)
 
 ANGLES = st.floats(-1e3, 1e3)
 LENGTHS = st.floats(-10.0, 10.0)
@@ -35,3 +42,17 @@ def test_a_wrapped_angle_is_the_same_direction_within_half_a_turn(angle) -> None
 @given(st.floats(-3.0, 3.0))
 def test_an_angle_within_half_a_turn_keeps_every_bit(angle) -> None:
     assert wrap_angle(angle) == angle
+
+
+@given(st.lists(POSES, min_size=1), POINTS)
+def test_many_points_go_to_their_body_frames_as_one_does(poses, point) -> None:
+    found = points_to_body(np.array(poses), np.tile(point, (len(poses), 1)))
+    assert np.allclose(found, [to_body(pose, point) for pose in poses], atol=1e-13)
+
+
+@given(st.lists(ANGLES, min_size=1))
+def test_many_angles_are_wrapped_as_one_is(angles) -> None:
+    found = wrap_angles(np.array(angles))
+    assert ((found >= -math.pi) & (found < math.pi)).all()
+    assert np.allclose(np.cos(found), np.cos(angles), atol=1e-12)
+    assert np.allclose(np.sin(found), np.sin(angles), atol=1e-12)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import rclpy
 from push_core.common import InputError, Parser, write_atomically
+from push_node.override_text import parsed_override
 from rclpy.signals import SignalHandlerOptions
 
-from push_bag.file import parameter_value
 from push_bag.replay import Changes, Recomputed, recomputed
 from push_bag.replay.interview import interviewed
 
@@ -71,7 +71,7 @@ def recompute(arguments: argparse.Namespace) -> int:
     Raises:
         InputError: the bag lacks what the controller needs, or a change is not possible.
     """
-    params = dict(_param(text) for text in arguments.param)
+    params = dict(parsed_override(text) for text in arguments.param)
     changes = Changes(arguments.controller, arguments.model, params)
     found = recomputed(arguments.run, changes)
     _tell(found, arguments.html)
@@ -105,10 +105,3 @@ def _tell(found: Recomputed, page: Path | None) -> None:
 
         write_atomically(page, command_page(found).encode())
     sys.stdout.write(found.text())
-
-
-def _param(text: str) -> tuple[str, object]:
-    name, separator, value = text.partition(':=')
-    if not (name and separator and value):
-        raise InputError(f'-p {text}: write it as NAME:=VALUE')
-    return name, parameter_value(value)

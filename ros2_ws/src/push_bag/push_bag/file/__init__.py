@@ -24,7 +24,6 @@ from push_bag.file.reader import BagReader, Record, bag_file
 from push_bag.file.topic_registry import Topic
 from push_bag.file.traffic import Traffic, lost_text
 from push_bag.file.whole_bag import whole_bag
-from push_bag.file.yaml_text import parameter_value
 
 __all__ = [
     'COUNTS_RECORD',
@@ -50,7 +49,6 @@ __all__ = [
     'lost_text',
     'message',
     'message_class',
-    'parameter_value',
     'qos_profile',
     'qos_text',
     'schema_text',

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from push_core.geometry import points_to_body
 
 from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.score.tracking import during_tracking
 
 LOST_GAP = 0.5e-3  # [m]
-END_GAP = 1.0e-3  # [m] up to which the pusher counts as on the face at the end
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ def contact(run: RunSeries, reference: Reference) -> Contact:
     index, found = run.pusher.at(run.object.stamp)
     used = found & during_tracking(run, run.object.stamp)
     pose, tip = run.object.values[used], run.pusher.values[index[used]]
-    x_body, y_body = _in_body(pose, tip).T
+    x_body, y_body = points_to_body(pose, tip).T
     gap = -reference.side / 2.0 - reference.tip_radius - x_body
     return Contact(run.object.stamp[used], gap, y_body)
 
@@ -50,20 +50,3 @@ def loss_intervals(contact: Contact) -> list[tuple[int, int]]:
         (int(contact.stamp[first]), int(contact.stamp[after - 1]))
         for first, after in edges.reshape(-1, 2)
     ]
-
-
-def on_face_at_end(contact: Contact, reference: Reference) -> bool:
-    """Whether the pusher was on the face at the last instant."""
-    if not contact.stamp.size:
-        return False
-    near = contact.gap[-1] <= END_GAP
-    return bool(near and abs(contact.p_y[-1]) <= reference.side / 2.0)
-
-
-def _in_body(pose: Floats, point: Floats) -> Floats:
-    """Points (n, 2) given in the world, in the body frames of poses (n, 3)."""
-    offset = point - pose[:, :2]
-    cos, sin = np.cos(pose[:, 2]), np.sin(pose[:, 2])
-    return np.stack(
-        [cos * offset[:, 0] + sin * offset[:, 1], cos * offset[:, 1] - sin * offset[:, 0]], axis=1
-    )

@@ -1,8 +1,8 @@
 """The score of a run: one JSON object, defined in one place.
 
 The formulas stand where the numbers are computed: tracking.py, contact.py, timing.py, traffic.py.
-`completed`: the reference came to its end (mode DONE) without a stop, with the pusher on the face
-and the object within END_DISTANCE of the reference's end.
+`completed`: the controller reached mode DONE without a stop, and the run ended well
+(`push_core.tracks.is_completed`).
 """
 
 import math
@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 from push_core.common import InputError, finite
+from push_core.tracks import is_completed
 from push_msgs.msg import ControllerState
 
 from push_bag.run import Floats, Reference, RunSeries, read_run
-from push_bag.score.contact import contact, loss_intervals, on_face_at_end
+from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.message_counts import message_counts
 from push_bag.score.timing import timing
 from push_bag.score.tracking import Tracking, track
 
-END_DISTANCE = 0.050  # [m]
 LIMITS = {
     'not_finite': ControllerState.LIMITED_NOT_FINITE,
     'speed': ControllerState.LIMITED_SPEED,
@@ -67,15 +67,19 @@ def score_series(run: RunSeries) -> dict[str, Any]:
 
 
 def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
-    """Whether the reference came to its end as the module's text says."""
-    modes = run.state('mode')
-    arrived = bool(np.any(modes == ControllerState.DONE))
-    stopped = bool(np.any(modes == ControllerState.STOPPED))
-    if not arrived or stopped or not tracking.stamp.size:
+    """Whether the run was completed; see `push_core.tracks.is_completed`."""
+    touching = contact(run, reference)
+    if not tracking.stamp.size or not touching.stamp.size:
         return False
-    end = tracking.pose[-1, :2] - reference.pose[-1, :2]
-    near = bool(np.hypot(*end) <= END_DISTANCE)
-    return near and on_face_at_end(contact(run, reference), reference)
+    modes = run.state('mode')
+    arrived, stopped = ControllerState.DONE in modes, ControllerState.STOPPED in modes
+    return is_completed(
+        arrived=arrived and not stopped,
+        distance=float(np.hypot(*(tracking.pose[-1, :2] - reference.pose[-1, :2]))),
+        gap=float(touching.gap[-1]),
+        contact_offset=float(touching.p_y[-1]),
+        side=reference.side,
+    )
 
 
 def limited(run: RunSeries) -> dict[str, int]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from push_core.geometry import wrap_angles
 
 from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.score.segments import Segments
@@ -89,7 +90,7 @@ def track(run: RunSeries, reference: Reference) -> Tracking:
         wanted=wanted,
         distance=np.hypot(*(pose[:, :2] - wanted[:, :2]).T),
         cross_track=cross_track(reference, pose[:, :2], time),
-        heading=wrapped(pose[:, 2] - wanted[:, 2]),
+        heading=wrap_angles(pose[:, 2] - wanted[:, 2]),
         after_start=time > START_SHARE * reference.duration,
     )
 
@@ -105,9 +106,3 @@ def cross_track(reference: Reference, points: Floats, time: Floats) -> Floats:
         signed = segments.distance(np.clip(here + shift, 0, reference.time.size - 2), points)
         nearest = np.where(np.abs(signed) < np.abs(nearest), signed, nearest)
     return nearest
-
-
-def wrapped(angle: Floats) -> Floats:
-    """The same angles [rad] in [-pi, pi)."""
-    turned: Floats = (angle + np.pi) % (2.0 * np.pi) - np.pi
-    return turned

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
-import yaml
 from push_core.common import InputError, Parser, RunError, run_command
 from push_core.tracks import TRACKS
 from push_gp.models import ANALYTICAL, read_sealed
 from push_mpc.plan import Plan, planned
 from push_mpc.settings import PRESETS
+from push_node.override_text import parsed_override
 from push_sim.settings import PROFILES
 
 from push_bringup.setup import (
@@ -149,7 +149,7 @@ def _request(arguments: argparse.Namespace) -> Request:
         raise InputError('--model is for --controller gp; the analytical one needs none')
     if not arguments.speed > 0.0:
         raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
-    overrides = dict(_override(text) for text in arguments.param)
+    overrides = dict(parsed_override(text) for text in arguments.param)
     return Request(
         track=arguments.track,
         speed=arguments.speed,
@@ -192,16 +192,6 @@ def _model(arguments: argparse.Namespace) -> str:
         model = default_model()
     read_sealed(model)
     return str(model.resolve())
-
-
-def _override(text: str) -> tuple[str, object]:
-    name, separator, value = text.partition(':=')
-    if not (name and separator and value):
-        raise InputError(f'-p {text}: write it as NAME:=VALUE')
-    try:
-        return name, yaml.safe_load(value)
-    except yaml.YAMLError as error:
-        raise InputError(f'-p {text}: the value is not a number, word or true/false') from error
 
 
 def _finish(folder: Path, reason: str) -> int:

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 from push_core.geometry import Array
+from push_core.tracks import is_completed
 from push_gp.models import ANALYTICAL, model_named
 from push_mpc.loop import FOLLOWING, Tick
 from push_mpc.plan import planned
@@ -24,8 +25,6 @@ from push_bringup.setup import CellParameters, Request, code_key, installed_conf
 
 PATH_POINTS = 400
 """Points of a lap that are kept for its picture."""
-LARGEST_END_ERROR = 50.0  # [mm]
-LARGEST_END_GAP = 1e-3  # [m] up to which the tip counts as on the face
 
 
 @dataclass(frozen=True)
@@ -147,7 +146,7 @@ def pushed(job: LapJob) -> Lap:
         reason = cell.run(watched.on_tick)
     finally:
         cell.close()
-    return watched.lap(reason, 0.5 * parameters.mpc.slider.side)
+    return watched.lap(reason, parameters.mpc.slider.side)
 
 
 class _Watched:
@@ -171,15 +170,20 @@ class _Watched:
         self._commands.append(tick.velocity)
         self._last = tick
 
-    def lap(self, reason: str, half: float) -> Lap:
-        """The lap, with why it stopped; `half` a side of the square [m]."""
+    def lap(self, reason: str, side: float) -> Lap:
+        """The lap, with why it stopped and the side of the square [m]."""
         if self._last is None or self._last.state is None:
             return Lap(False, reason or 'never tracked', float('inf'), float('inf'), 0.0, ())
-        on_face = self._last.gap <= LARGEST_END_GAP and abs(self._last.state[3]) <= half
-        near = self._errors[-1] <= LARGEST_END_ERROR
+        completed = is_completed(
+            arrived=not reason,
+            distance=1e-3 * self._errors[-1],
+            gap=self._last.gap,
+            contact_offset=self._last.state[3],
+            side=side,
+        )
         step = -(-len(self._path) // PATH_POINTS)
         return Lap(
-            completed=bool(not reason and on_face and near),
+            completed=completed,
             stop_reason=reason,
             mean_mm=fmean(self._errors),
             max_mm=max(self._errors),

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from push_core.geometry import Array, wrap_angle
+from push_core.geometry import Array, points_to_body, wrap_angle
 from push_core.physics import Slider
 
 FACE_MARGIN = 1e-3
@@ -60,7 +60,7 @@ class LongPushes:
         cls, slider: Slider, start: Array, end: Array, tip_start: Array, tip_end: Array
     ) -> 'LongPushes':
         """Pushes on whichever face the tip was at; turns each pose so that it is x = p_x."""
-        x, y = _in_body_frame(start, tip_start).T
+        x, y = points_to_body(start, tip_start).T
         quarter = np.round((np.arctan2(y, x) - math.pi) / (math.pi / 2.0)) * (math.pi / 2.0)
         turn = np.column_stack((np.zeros((len(start), 2)), quarter))
         return cls(slider, start + turn, end + turn, tip_start, tip_end)
@@ -87,7 +87,7 @@ class LongPushes:
     @cached_property
     def on_face(self) -> NDArray[np.bool_]:
         """(n,) whether the tip was still on the face at the end; it began there."""
-        p_y = _in_body_frame(self.end, self.tip_end)[:, 1]
+        p_y = points_to_body(self.end, self.tip_end)[:, 1]
         return np.asarray(np.abs(p_y) <= self.slider.side / 2.0 + FACE_MARGIN)
 
     def errors(self, end: Array) -> EndErrors:
@@ -95,10 +95,3 @@ class LongPushes:
         gap = end - self.end
         heading = np.array([abs(wrap_angle(angle)) for angle in gap[:, 2].tolist()])
         return EndErrors(np.asarray(np.hypot(gap[:, 0], gap[:, 1])), heading)
-
-
-def _in_body_frame(poses: Array, points: Array) -> Array:
-    """(n, 2) positions [m] in the body frames of (n, 3) poses of (n, 2) world points."""
-    cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-    x, y = (points - poses[:, :2]).T
-    return np.column_stack((cos * x + sin * y, cos * y - sin * x))

@@ -1,0 +1,22 @@
+"""Parameter overrides on the command line of programs that are no nodes: `NAME:=VALUE`."""
+
+import yaml
+from push_core.common import InputError
+
+
+def parsed_override(text: str) -> tuple[str, object]:
+    """Name and value of an override.
+
+    Args:
+        text: `NAME:=VALUE`, the value in YAML as ROS takes it.
+
+    Raises:
+        InputError: it is written otherwise.
+    """
+    name, separator, value = text.partition(':=')
+    if not (name and separator and value):
+        raise InputError(f'-p {text}: write it as NAME:=VALUE')
+    try:
+        return name, yaml.safe_load(value)
+    except yaml.YAMLError:
+        raise InputError(f'-p {text}: the value is not a number, word or true/false') from None
