@@ -17,7 +17,7 @@ from geometry_msgs.msg import TransformStamped
 from push_bag.file import message_class
 from push_core.common import RunError
 from push_msgs.msg import Horizon
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -98,7 +98,7 @@ class Publisher:
             topic.name: node.create_publisher(
                 message_class(topic.type_name), topic.name, topic.qos
             )
-            for topic in CELL_TOPICS
+            for topic in TOPICS
             if topic.core or topic.name in FILLED
         }
         self._outlets['load'] = node.create_publisher(

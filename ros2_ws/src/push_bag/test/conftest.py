@@ -11,7 +11,7 @@ from push_bag.file.bag_writer import BagWriter
 from push_bag.file.message_types import message_class
 from push_bag.file.qos_text import qos_text
 from push_msgs.msg import ControllerState
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
@@ -25,7 +25,7 @@ DONE_TICKS = 10
 FLUSH_TICKS = 25  # as the recorder does every 0.25 s
 EXTRA = ('perturbation', 'horizon', 'run_end')
 HORIZON = np.linspace(0.0, 0.35, 36)  # [s] ahead
-CORE = {topic.name: topic for topic in CELL_TOPICS if topic.core or topic.name in EXTRA}
+CORE = {topic.name: topic for topic in TOPICS if topic.core or topic.name in EXTRA}
 
 
 def on_circle(time):

@@ -12,7 +12,7 @@ from push_bag.file.message_types import message_class, type_hash
 from push_bag.file.qos_text import qos_text
 from push_bag.file.reader import BagReader
 from push_bag.run.run_reader import read_run
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from rclpy.serialization import serialize_message
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
@@ -115,17 +115,17 @@ def filled(type_name):
 
 def test_others_read_the_type_of_every_topic_of_the_cell(tmp_path):
     with BagWriter(tmp_path / 'run', {}, {}) as bag:
-        for topic in CELL_TOPICS:
+        for topic in TOPICS:
             name = f'/{topic.name.lstrip("/")}'
             bag.add_topic(name, topic.type_name, qos_text(topic.qos))
             bag.write(name, serialize_message(filled(topic.type_name)), 1, 1, 1)
-    names = {f'/{topic.name.lstrip("/")}' for topic in CELL_TOPICS}
+    names = {f'/{topic.name.lstrip("/")}' for topic in TOPICS}
     with AnyReader([tmp_path / 'run']) as bag:
         read = bag.messages()
         decoded = {each.topic: bag.deserialize(data, each.msgtype) for each, _, data in read}
         hashes = {each.topic: each.digest for each in bag.connections}
     assert set(decoded) == names
-    for topic in CELL_TOPICS:
+    for topic in TOPICS:
         assert hashes[f'/{topic.name.lstrip("/")}'] == type_hash(topic.type_name)
     with BagReader(tmp_path / 'run').path.open('rb') as stream:
         bag = make_reader(stream, decoder_factories=[DecoderFactory()])

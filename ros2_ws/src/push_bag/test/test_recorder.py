@@ -14,7 +14,7 @@ from push_bag.record.recorder import open_bag
 from push_bag.record.recorder_settings import RecorderSettings
 from push_bag.repair.recover import recover
 from push_core.common.errors import InputError
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.processes
 PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 BEST_EFFORT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 ROUNDS = 40  # of messages, so few that all may wait for a recorder that gets no core
-CORE = [topic for topic in CELL_TOPICS if topic.core]
+CORE = [topic for topic in TOPICS if topic.core]
 
 
 class Cell(Node):

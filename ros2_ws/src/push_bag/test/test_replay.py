@@ -12,7 +12,7 @@ from push_bag.record.raw_subscription import RawSubscription
 from push_bag.replay.playback import Publishers, in_order, play, skipped_to
 from push_bag.replay.survey import survey
 from push_core.common.errors import InputError
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from rclpy.qos import HistoryPolicy, QoSProfile
 
 pytestmark = pytest.mark.processes
@@ -53,7 +53,7 @@ def test_records_that_polling_mixed_up_come_in_order():
 
 
 def test_offered_profiles_survive_the_bag():
-    for topic in CELL_TOPICS:
+    for topic in TOPICS:
         profile = qos_profile(qos_text(topic.qos))
         for policy in ('reliability', 'durability', 'depth', 'deadline'):
             assert getattr(profile, policy) == getattr(topic.qos, policy)

@@ -5,6 +5,8 @@ from collections.abc import Mapping
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
+from push_node import interface
+
 
 def status_name(node_name: str, name: str) -> str:
     """How a status of a node (fully qualified name) is called on /diagnostics."""
@@ -17,7 +19,7 @@ class Reporter:
     def __init__(self, node: Node, name: str) -> None:
         self._node = node
         self._name = status_name(node.get_fully_qualified_name(), name)
-        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._publisher = interface.DIAGNOSTICS.publisher(node)
 
     def report(self, ok: bool, message: str, values: Mapping[str, str]) -> None:
         """Says how the node is; call it once a second and on every change."""

@@ -1,4 +1,4 @@
-"""Quality of service of the cell's topics."""
+"""QoS profiles of the graph's topics; `interface.py` says which topic has which."""
 
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -13,7 +13,7 @@ LATCHED = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-# all of it, for whoever comes later
+# a late subscriber gets every message
 HISTORY = QoSProfile(
     depth=1000,
     reliability=ReliabilityPolicy.RELIABLE,

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from push_core.common import setting, validate
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import TOPICS
 from push_node.parameters import declared
 from push_node.spin import run_node
 from push_node.topic_names import full_name
@@ -56,7 +56,7 @@ class Live(Node):  # type: ignore[misc]
     def __init__(self) -> None:
         super().__init__('live')
         settings = declared(self, LiveSettings())
-        own = {self.resolve_topic_name(topic.name): topic for topic in CELL_TOPICS}
+        own = {self.resolve_topic_name(topic.name): topic for topic in TOPICS}
         offers = {name: topic.qos for name, topic in own.items()}
         others = {full_name(self, name) for name in split_list(settings.topics)}
         known = [(name, topic.type_name, qos_text(topic.qos)) for name, topic in own.items()]

@@ -5,8 +5,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from push_core.common import InputError, RunError
-from push_node.cell_topics import CELL_TOPICS
 from push_node.diagnostics import Reporter
+from push_node.interface import TOPICS
 from push_node.parameters import declared
 from push_node.spin import request_stop, run_node
 from push_node.topic_names import full_name
@@ -42,9 +42,9 @@ class Recorder(Node):  # type: ignore[misc]
     def __init__(self) -> None:
         super().__init__('recorder')
         settings = declared(self, RecorderSettings())
-        offers = {self.resolve_topic_name(topic.name): topic.qos for topic in CELL_TOPICS}
+        offers = {self.resolve_topic_name(topic.name): topic.qos for topic in TOPICS}
         others = {full_name(self, name) for name in split_list(settings.topics)}
-        self._core = {self.resolve_topic_name(topic.name) for topic in CELL_TOPICS if topic.core}
+        self._core = {self.resolve_topic_name(topic.name) for topic in TOPICS if topic.core}
         self._writer = open_bag(settings)
         self._recording = Recording(self._writer, {*offers, *others}, offers)
         self._reporter = Reporter(self, 'recording')

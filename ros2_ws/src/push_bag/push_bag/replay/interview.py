@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from push_core.common import InputError
 from push_msgs.msg import ControllerState
-from push_node.cell_topics import short_name
+from push_node.endpoints import short_name
+from push_node.interface import OBJECT_POSE, PUSHER_POSE
 from rclpy.node import Node
 from tqdm import tqdm
 
@@ -15,7 +16,7 @@ from push_bag.replay.questioner import Question, Questioner
 from push_bag.replay.recompute import Recomputed
 from push_bag.run import ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
 
-POSES = ('object_pose', 'pusher_pose')
+POSES = (OBJECT_POSE.short_name, PUSHER_POSE.short_name)
 
 
 def interviewed(path: Path, node: Node) -> Recomputed:

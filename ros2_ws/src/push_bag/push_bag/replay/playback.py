@@ -6,17 +6,17 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from push_core.common import InputError
+from push_node.interface import CLOCK
 from push_node.stamps import to_stamp
 from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy
 from rosgraph_msgs.msg import Clock
 from tqdm import tqdm
 
 from push_bag.file import Record, Topic, message_class, qos_profile
 
 REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
-CLOCK = '/clock'
 MATCHING_PERIOD = 0.02  # [s]
 
 
@@ -99,10 +99,8 @@ class Publishers:
         """
         self._node = node
         self._publishers = {topic.name: _publisher(node, topic) for topic in topics}
-        needs_clock = with_clock and CLOCK not in self._publishers
-        self._clock = (
-            node.create_publisher(Clock, CLOCK, QoSProfile(depth=10)) if needs_clock else None
-        )
+        needs_clock = with_clock and CLOCK.name not in self._publishers
+        self._clock = CLOCK.publisher(node) if needs_clock else None
 
     def wait_until_matched(self, timeout: float) -> None:
         """Waits until every listener of whom the node knows is connected, at most a time [s]."""

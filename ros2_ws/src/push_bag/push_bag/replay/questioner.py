@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.common import RunError
+from push_node import interface
 from push_node.ask import READY_TIMEOUT, ask
-from push_node.qos import COMMAND, POSE
+from push_node.endpoints import GraphService
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
@@ -24,7 +25,6 @@ from push_bag.run import Floats
 
 PATIENCE = 0.2  # [s] for an answer, before the question is put again
 ATTEMPTS = 50
-SERVICES = ('stop', 'resume', 'start')
 
 
 @dataclass(frozen=True)
@@ -54,14 +54,13 @@ class Questioner:
             node: that asks.
             prefix: of the names of the controller's topics and services.
         """
-        self._object = node.create_publisher(PoseStamped, f'{prefix}object_pose', POSE)
-        self._tip = node.create_publisher(PoseStamped, f'{prefix}pusher_pose', POSE)
-        self._clock = node.create_publisher(Clock, '/clock', 10)
-        node.create_subscription(
-            TwistStamped, f'{prefix}pusher_velocity_cmd', self._on_command, COMMAND
-        )
-        self._services = {
-            name: node.create_client(Trigger, f'{prefix}push_mpc/{name}') for name in SERVICES
+        self._object = interface.OBJECT_POSE.publisher(node, prefix)
+        self._tip = interface.PUSHER_POSE.publisher(node, prefix)
+        self._clock = interface.CLOCK.publisher(node)
+        interface.PUSHER_VELOCITY_CMD.subscription(node, self._on_command, prefix)
+        self._clients = {
+            service: service.client(node, prefix)
+            for service in (interface.STOP, interface.RESUME, interface.START)
         }
         self._spinner = Spinner(node)
         self._answers: dict[int, Floats] = {}
@@ -73,7 +72,7 @@ class Questioner:
             RunError: there is none, or it refuses.
         """
         self.stop()
-        self._call('resume')
+        self._call(interface.RESUME)
         deadline = time.monotonic() + READY_TIMEOUT
         while not (answer := self._start(first)).success:
             if time.monotonic() > deadline:
@@ -86,7 +85,7 @@ class Questioner:
         Raises:
             RunError: there is none.
         """
-        self._call('stop')
+        self._call(interface.STOP)
 
     def answer(self, question: Question) -> Floats:
         """What the controller sends (2,) [m/s].
@@ -105,7 +104,7 @@ class Questioner:
         """An attempt to start; the controller wants to have seen poses before."""
         self._show(first)
         self._happens(lambda: False, PATIENCE)
-        return self._call('start')
+        return self._call(interface.START)
 
     def _show(self, question: Question) -> None:
         self._clock.publish(Clock(clock=to_stamp(question.now)))
@@ -116,10 +115,10 @@ class Questioner:
         velocity = message.twist.linear
         self._answers[to_nanoseconds(message.header.stamp)] = np.array([velocity.x, velocity.y])
 
-    def _call(self, name: str) -> Any:
-        answer = ask(self._services[name], Trigger.Request(), self._happens)
+    def _call(self, service: GraphService) -> Any:
+        answer = ask(self._clients[service], Trigger.Request(), self._happens)
         if answer is None:
-            raise RunError(f'no mpc_node answers push_mpc/{name}; see replay --help')
+            raise RunError(f'no mpc_node answers {service.name}; see replay --help')
         return answer
 
     def _happens(self, finished: Callable[[], bool], timeout: float) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from push_core.common import InputError
-from push_node.cell_topics import short_name
+from push_node.endpoints import short_name
 
 from push_bag.file import BagReader, Topic
 

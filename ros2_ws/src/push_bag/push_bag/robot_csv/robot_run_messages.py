@@ -9,7 +9,13 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.geometry import yaw_to_quaternion
 from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
-from push_node.cell_topics import CELL_TOPICS
+from push_node.interface import (
+    CONTROLLER_STATE,
+    NOMINAL_TRAJECTORY,
+    OBJECT_POSE,
+    PUSHER_POSE,
+    PUSHER_VELOCITY_CMD,
+)
 from push_node.stamps import to_stamp
 from rclpy.serialization import serialize_message
 
@@ -19,36 +25,32 @@ from push_bag.run import Floats
 
 START_NS = 1_000_000_000  # stamp of the first row
 WRITTEN = (
-    *('object_pose', 'pusher_pose', 'pusher_velocity_cmd'),
-    *('nominal_trajectory', 'controller_state'),
+    *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD),
+    *(NOMINAL_TRAJECTORY, CONTROLLER_STATE),
 )
 UNKNOWN = math.nan
 
 
 def topics() -> list[tuple[str, str, str]]:
     """Name, type and QoS of the topics, for `BagWriter.add_topic`."""
-    return [
-        (f'/{topic.name}', topic.type_name, qos_text(topic.qos))
-        for topic in CELL_TOPICS
-        if topic.name in WRITTEN
-    ]
+    return [(each.absolute_name, each.type_name, qos_text(each.qos)) for each in WRITTEN]
 
 
 def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
     """Topic, bytes and stamp [ns] of every message, in order of time."""
-    yield '/nominal_trajectory', serialize_message(_reference(run, slider)), START_NS
+    yield NOMINAL_TRAJECTORY.absolute_name, serialize_message(_reference(run, slider)), START_NS
     velocity, progress = run.velocity, run.progress
     for row, time in enumerate(run.time.tolist()):
         stamp = START_NS + round(time * 1e9)
         last = row == len(run.time) - 1
-        for name, message in (
-            ('/object_pose', _posed(run.pose[row])),
-            ('/pusher_pose', _posed(np.array([*run.tip[row], 0.0]))),
-            ('/pusher_velocity_cmd', _moving(velocity[row])),
-            ('/controller_state', _state(run, slider, row, progress[row], last)),
+        for topic, message in (
+            (OBJECT_POSE, _posed(run.pose[row])),
+            (PUSHER_POSE, _posed(np.array([*run.tip[row], 0.0]))),
+            (PUSHER_VELOCITY_CMD, _moving(velocity[row])),
+            (CONTROLLER_STATE, _state(run, slider, row, progress[row], last)),
         ):
             message.header.frame_id, message.header.stamp = 'world', to_stamp(stamp)
-            yield name, serialize_message(message), stamp
+            yield topic.absolute_name, serialize_message(message), stamp
 
 
 def _posed(pose: Floats) -> Any:

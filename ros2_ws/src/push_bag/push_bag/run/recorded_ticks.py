@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 from push_core.common import InputError
 from push_core.geometry import Array
-from push_node.cell_topics import short_name
+from push_node import interface
+from push_node.endpoints import short_name
 
 from push_bag.file import BagReader, Columns
 from push_bag.run.conversions import (
@@ -20,6 +21,10 @@ from push_bag.run.conversions import (
 )
 from push_bag.run.topic_table import TopicTable
 
+OBJECT_POSE = interface.OBJECT_POSE.short_name
+TIP_POSE = interface.PUSHER_POSE.short_name
+COMMAND = interface.PUSHER_VELOCITY_CMD.short_name
+STATE = interface.CONTROLLER_STATE.short_name
 TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
 
@@ -68,17 +73,17 @@ class RecordedRun:
         self.reader = BagReader(path)
         self._names: list[tuple[str, str]] = []
         tables = {
-            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
-            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
-            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
-            'controller_state': TopicTable(TICK_FIELDS, 3, self._tick_values),
+            OBJECT_POSE: TopicTable(POSE_FIELDS, 3, planar_poses),
+            TIP_POSE: TopicTable(POSE_FIELDS, 2, positions),
+            COMMAND: TopicTable(TWIST_FIELDS, 2, velocities),
+            STATE: TopicTable(TICK_FIELDS, 3, self._tick_values),
         }
         for record in self.reader.records():
             table = tables.get(short_name(record.topic.name))
             if table is not None:
                 table.add(record)
         rows = {name: table.in_file_order() for name, table in tables.items()}
-        self._states = rows.pop('controller_state')
+        self._states = rows.pop(STATE)
         self._rows = rows
         self._by_stamp = {
             name: ByStamp(each.stamp.tolist(), each.published.tolist())
@@ -108,9 +113,9 @@ class RecordedRun:
             now=now,
             model_id=model_id,
             stop_reason=stop_reason,
-            object_pose=found['object_pose'],
-            tip=found['pusher_pose'],
-            velocity=found['pusher_velocity_cmd'],
+            object_pose=found[OBJECT_POSE],
+            tip=found[TIP_POSE],
+            velocity=found[COMMAND],
         )
 
     def _values(self, name: str, stamp: int, told: int) -> Array | None:

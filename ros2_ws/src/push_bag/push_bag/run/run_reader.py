@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 from push_core.common import InputError
-from push_node.cell_topics import short_name
+from push_node import interface
+from push_node.endpoints import short_name
 
 from push_bag.file import BagReader, Columns, Record, Traffic
 from push_bag.run.conversions import (
@@ -47,10 +48,12 @@ class _Rows:
     def __init__(self) -> None:
         self.traffic: dict[str, Traffic] = {}
         self._tables = {
-            'object_pose': TopicTable(POSE_FIELDS, 3, planar_poses),
-            'pusher_pose': TopicTable(POSE_FIELDS, 2, positions),
-            'pusher_velocity_cmd': TopicTable(TWIST_FIELDS, 2, velocities),
-            'controller_state': TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
+            interface.OBJECT_POSE.short_name: TopicTable(POSE_FIELDS, 3, planar_poses),
+            interface.PUSHER_POSE.short_name: TopicTable(POSE_FIELDS, 2, positions),
+            interface.PUSHER_VELOCITY_CMD.short_name: TopicTable(TWIST_FIELDS, 2, velocities),
+            interface.CONTROLLER_STATE.short_name: TopicTable(
+                STATE_FIELDS, len(STATE_COLUMNS), self._states
+            ),
         }
         self._topics: dict[str, tuple[Traffic, Callable[[Record], None] | None]] = {}
         self._sources: dict[str, str] = {}
@@ -61,11 +64,11 @@ class _Rows:
         self._horizons: list[Record] = []
         self._readers: Mapping[str, Callable[[Record], None]] = {
             **{name: table.add for name, table in self._tables.items()},
-            'nominal_trajectory': self._set_reference,
-            'model_info': self._set_model,
-            'perturbation': self._add_disturbance,
-            'horizon': self._horizons.append,
-            'run_end': self._set_end_reason,
+            interface.NOMINAL_TRAJECTORY.short_name: self._set_reference,
+            interface.MODEL_INFO.short_name: self._set_model,
+            interface.PERTURBATION.short_name: self._add_disturbance,
+            interface.HORIZON.short_name: self._horizons.append,
+            interface.RUN_END.short_name: self._set_end_reason,
         }
 
     def add(self, record: Record) -> None:
@@ -91,10 +94,10 @@ class _Rows:
             facts=reader.facts,
             finished=reader.finished,
             traffic={name: self.traffic.get(name, Traffic()) for name in reader.topics},
-            object=tables['object_pose'],
-            pusher=tables['pusher_pose'],
-            commands=tables['pusher_velocity_cmd'],
-            states=tables['controller_state'],
+            object=tables[interface.OBJECT_POSE.short_name],
+            pusher=tables[interface.PUSHER_POSE.short_name],
+            commands=tables[interface.PUSHER_VELOCITY_CMD.short_name],
+            states=tables[interface.CONTROLLER_STATE.short_name],
             # the cell also knows of nodes that died, whose controller could not say so
             stop_reason=self._end_reason or self._stop_reason,
             reference=self._reference,

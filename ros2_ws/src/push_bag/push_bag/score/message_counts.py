@@ -6,7 +6,8 @@ middleware_lost  what the middleware itself told the recorder.
 """
 
 import numpy as np
-from push_node.cell_topics import short_name
+from push_node import interface
+from push_node.endpoints import short_name
 
 from push_bag.file import Traffic
 from push_bag.run import Nanoseconds, RunSeries
@@ -17,10 +18,10 @@ POSE_PERIOD_NS = 10_000_000
 def message_counts(run: RunSeries) -> dict[str, dict[str, int | None]]:
     """Counts per topic; None where nothing tells."""
     stamps = {
-        'object_pose': run.object.stamp,
-        'pusher_pose': run.pusher.stamp,
-        'pusher_velocity_cmd': run.commands.stamp,
-        'controller_state': run.states.stamp,
+        interface.OBJECT_POSE.short_name: run.object.stamp,
+        interface.PUSHER_POSE.short_name: run.pusher.stamp,
+        interface.PUSHER_VELOCITY_CMD.short_name: run.commands.stamp,
+        interface.CONTROLLER_STATE.short_name: run.states.stamp,
     }
     return {
         topic: _counts(seen, missing_stamps(stamps.get(short_name(topic))))

@@ -11,7 +11,7 @@ from push_core.common import RunError
 from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_msgs.srv import Reset
-from push_node import qos
+from push_node import interface
 from push_node.ask import READY_TIMEOUT, ask
 from push_node.spin import Spinner, stop_on_signals
 from rclpy.client import Client
@@ -40,15 +40,11 @@ class Conductor:
         self._plan: NominalTrajectory | None = None
         self._state: ControllerState | None = None
         self._last_tick = 0.0
-        self._node.create_subscription(
-            NominalTrajectory, 'nominal_trajectory', self._on_plan, qos.LATCHED
-        )
-        self._node.create_subscription(
-            ControllerState, 'controller_state', self._on_state, qos.STATE
-        )
-        self._end = self._node.create_publisher(String, 'run_end', qos.LATCHED)
-        self._reset = self._node.create_client(Reset, 'push_sim/reset')
-        self._start = self._node.create_client(Trigger, 'push_mpc/start')
+        interface.NOMINAL_TRAJECTORY.subscription(self._node, self._on_plan)
+        interface.CONTROLLER_STATE.subscription(self._node, self._on_state)
+        self._end = interface.RUN_END.publisher(self._node)
+        self._reset = interface.RESET.client(self._node)
+        self._start = interface.START.client(self._node)
 
     def close(self) -> None:
         """Leaves the graph."""

@@ -110,8 +110,12 @@ class Processes:
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]
         if self._namespace:
+            # rclpy takes long to import, and the other cells need none of it here
+            from push_node.interface import CLOCK  # noqa: PLC0415
+
             # simulated time is each cell's own
-            arguments += ['-r', f'__ns:=/{self._namespace}', '-r', '/clock:=clock']
+            clock = f'{CLOCK.name}:={CLOCK.short_name}'
+            arguments += ['-r', f'__ns:=/{self._namespace}', '-r', clock]
         return arguments
 
 

@@ -11,7 +11,8 @@ from push_mpc.node import conversions as mpc
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.settings import MpcSettings
 from push_msgs.msg import ControllerState
-from push_node.cell_topics import CELL_TOPICS
+from push_node import interface
+from push_node.endpoints import GraphTopic
 from push_node.stamps import to_stamp
 from push_sim.node import conversions as sim
 from push_sim.plant import Observation, Plant
@@ -32,27 +33,28 @@ class InProcessRecord:
         steps = controller.settings.horizon_steps
         self._horizon = HorizonMessage(steps, controller.horizon_step)
         self._sequence: dict[str, int] = {}
-        for topic in CELL_TOPICS:
-            if topic.core or topic.name in ('perturbation', 'horizon'):
-                writer.add_topic(f'/{topic.name}', topic.type_name, qos_text(topic.qos))
+        self._ticks = 0
+        for topic in interface.TOPICS:
+            if topic.core or topic in (interface.PERTURBATION, interface.HORIZON):
+                writer.add_topic(topic.absolute_name, topic.type_name, qos_text(topic.qos))
 
     def head(self, settings: MpcSettings, info: ModelInfo) -> None:
         """Plan and model, before the first tick."""
         stamp = to_stamp(nanoseconds(self._plant.START))
         plan = mpc.nominal_message(self._controller.plan, settings)
         plan.header.stamp = stamp
-        self._write('nominal_trajectory', plan)
-        self._write('model_info', model_info_message(info, stamp))
+        self._write(interface.NOMINAL_TRAJECTORY, plan)
+        self._write(interface.MODEL_INFO, model_info_message(info, stamp))
 
     def tick(self, observation: Observation, tick: Tick, tick_ms: float) -> None:
         """One tick: what was seen, commanded and thought."""
         stamp_ns = nanoseconds(observation.time)
         stamp = to_stamp(stamp_ns)
-        self._write('pusher_pose', sim.position_message(observation.tip_position, stamp))
-        self._write('object_pose', sim.pose_message(observation.object_pose, stamp))
+        self._write(interface.PUSHER_POSE, sim.position_message(observation.tip_position, stamp))
+        self._write(interface.OBJECT_POSE, sim.pose_message(observation.object_pose, stamp))
         for disturbance in self._plant.take_disturbances():
             happened = to_stamp(nanoseconds(disturbance.time))
-            self._write('perturbation', sim.perturbation_message(disturbance, happened))
+            self._write(interface.PERTURBATION, sim.perturbation_message(disturbance, happened))
         self.told(tick, stamp_ns, tick_ms)
 
     def told(self, tick: Tick, stamp: int, tick_ms: float) -> None:
@@ -64,24 +66,25 @@ class InProcessRecord:
         if tick.mode != Mode.IDLE:
             mpc.set_stamp(self._command, stamp)
             mpc.fill_command(self._command, tick.velocity)
-            self._write('pusher_velocity_cmd', self._command)
+            self._write(interface.PUSHER_VELOCITY_CMD, self._command)
 
     def _write_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
         mpc.set_stamp(self._state, stamp)
         mpc.fill_state(self._state, tick)
-        self._state.tick = self._sequence.get('controller_state', 0)
+        self._state.tick = self._ticks
         self._state.tick_ms = tick_ms
         self._state.stop_reason = self._controller.stop_reason
         self._state.model_id = self._controller.model_id
-        self._write('controller_state', self._state)
+        self._write(interface.CONTROLLER_STATE, self._state)
+        self._ticks += 1
         self._write_horizon(tick, stamp)
 
     def _write_horizon(self, tick: Tick, stamp: int) -> None:
-        if tick.planned is not None and self._sequence['controller_state'] % HORIZON_EVERY == 0:
-            self._write('horizon', self._horizon.of(tick.planned, stamp))
+        if tick.planned is not None and self._ticks % HORIZON_EVERY == 0:
+            self._write(interface.HORIZON, self._horizon.of(tick.planned, stamp))
 
-    def _write(self, topic: str, message: Any) -> None:
+    def _write(self, topic: GraphTopic, message: Any) -> None:
         now = nanoseconds(self._plant.time)
-        sequence = self._sequence.get(topic, 0) + 1
-        self._sequence[topic] = sequence
-        self._writer.write(f'/{topic}', serialize_message(message), now, now, sequence)
+        sequence = self._sequence.get(topic.name, 0) + 1
+        self._sequence[topic.name] = sequence
+        self._writer.write(topic.absolute_name, serialize_message(message), now, now, sequence)

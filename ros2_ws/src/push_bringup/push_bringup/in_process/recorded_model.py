@@ -6,9 +6,8 @@ from push_gp.models import PushModel
 from push_gp.server import ModelServer
 from push_gp.server.conversions import pushes_of
 from push_msgs.msg import AddedPushes
-from push_node.cell_topics import short_name
-
-TOPIC = 'added_pushes'
+from push_node.endpoints import short_name
+from push_node.interface import ADDED_PUSHES
 
 
 class RecordedModel:
@@ -26,7 +25,7 @@ class RecordedModel:
             InputError: a message is not of its topic's type.
         """
         self._server = ModelServer(model, max_points)
-        names = [name for name in reader.topics if short_name(name) == TOPIC]
+        names = [name for name in reader.topics if short_name(name) == ADDED_PUSHES.short_name]
         self._added = iter([record.message() for record in reader.records(names)])
 
     def grown_to(self, model_id: str) -> PushModel:

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 
 from push_core.common import PushError
 from push_core.data import PushSet
-from push_msgs.msg import AddedPushes, ModelInfo
 from push_msgs.srv import AddPushes, Predict
+from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared
-from push_node.qos import HISTORY, LATCHED
 from push_node.spin import run_node
 from rclpy.node import Node
 
@@ -41,12 +40,12 @@ class GpServer(Node):  # type: ignore[misc]
         model = model_named(settings.model, settings.slider, settings.distance)
         self._server = ModelServer(model, settings.max_points)
         self._answered = self._refused = 0
-        self._announcements = self.create_publisher(ModelInfo, 'model_info', LATCHED)
-        self._added = self.create_publisher(AddedPushes, 'added_pushes', HISTORY)
+        self._announcements = interface.MODEL_INFO.publisher(self)
+        self._added = interface.ADDED_PUSHES.publisher(self)
         self._reporter = Reporter(self, 'model')
         self._entities = (
-            self.create_service(Predict, 'push_gp/predict', self._predict),
-            self.create_service(AddPushes, 'push_gp/add_pushes', self._add_pushes),
+            interface.PREDICT.service(self, self._predict),
+            interface.ADD_PUSHES.service(self, self._add_pushes),
             self.create_timer(REPORT_PERIOD, self._report),
         )
         self._announce()

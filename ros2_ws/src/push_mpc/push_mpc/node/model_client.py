@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from push_core.common import PushError
 from push_msgs.msg import ModelInfo
 from push_msgs.srv import Predict
-from push_node.qos import LATCHED
+from push_node import interface
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
@@ -68,8 +68,8 @@ class ModelClient:
         self._worker = ThreadPoolExecutor(max_workers=1)
         self._pending: _Pending | None = None
         self._log = node.get_logger()
-        self._client = node.create_client(Predict, 'push_gp/predict')
-        node.create_subscription(ModelInfo, 'model_info', self._on_model, LATCHED)
+        self._client = interface.PREDICT.client(node)
+        interface.MODEL_INFO.subscription(node, self._on_model)
         node.create_timer(POLL_PERIOD, self._send, clock=Clock(clock_type=ClockType.STEADY_TIME))
 
     def close(self) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
-from push_msgs.msg import ControllerState, Horizon, NominalTrajectory
-from push_node import qos
+from push_msgs.msg import ControllerState
+from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
 from push_node.realtime import settled
@@ -56,9 +56,9 @@ class MpcNode(Node):  # type: ignore[misc]
         self._recorder = RecorderWatch(self)
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
-        self._commands = self.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
-        self._states = self.create_publisher(ControllerState, 'controller_state', qos.STATE)
-        self._horizons = self.create_publisher(Horizon, 'horizon', qos.STATE)
+        self._commands = interface.PUSHER_VELOCITY_CMD.publisher(self)
+        self._states = interface.CONTROLLER_STATE.publisher(self)
+        self._horizons = interface.HORIZON.publisher(self)
         self._announce_plan()
         self._offer_services()
         self._start_timers()
@@ -74,15 +74,15 @@ class MpcNode(Node):  # type: ignore[misc]
         super().destroy_node()
 
     def _announce_plan(self) -> None:
-        self._nominal = self.create_publisher(NominalTrajectory, 'nominal_trajectory', qos.LATCHED)
+        self._nominal = interface.NOMINAL_TRAJECTORY.publisher(self)
         plan = conversions.nominal_message(self._controller.plan, self._settings)
         plan.header.stamp = self.get_clock().now().to_msg()
         self._nominal.publish(plan)
 
     def _offer_services(self) -> None:
-        self.create_service(Trigger, 'push_mpc/start', self._on_start)
-        self.create_service(Trigger, 'push_mpc/stop', self._on_stop)
-        self.create_service(Trigger, 'push_mpc/resume', self._on_resume)
+        interface.START.service(self, self._on_start)
+        interface.STOP.service(self, self._on_stop)
+        interface.RESUME.service(self, self._on_resume)
 
     def _start_timers(self) -> None:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -183,18 +183,20 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _on_stop(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         self._halt('stopped on request')
-        answer.success, answer.message = True, 'stopped; push_mpc/resume releases the stop'
+        answer.success = True
+        answer.message = f'stopped; {interface.RESUME.name} releases the stop'
         return answer
 
     def _on_resume(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         self._controller.resume()
-        answer.success, answer.message = True, 'released; push_mpc/start begins anew'
+        answer.success, answer.message = True, f'released; {interface.START.name} begins anew'
         return answer
 
     def _obstacle(self) -> str:
         """Why the run cannot start, empty if it can."""
         if self._controller.mode == Mode.STOPPED:
-            return f'stopped: {self._controller.stop_reason}; call push_mpc/resume first'
+            reason, resume = self._controller.stop_reason, interface.RESUME.name
+            return f'stopped: {reason}; call {resume} first'
         if not self._controller.model_id:
             return f'waiting for the model: {self._model.problem}'
         if self._settings.require_recorder and not self._recorder.is_recording:

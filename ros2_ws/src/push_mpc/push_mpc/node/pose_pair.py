@@ -4,9 +4,10 @@ import time
 from collections.abc import Callable
 
 from geometry_msgs.msg import PoseStamped
-from push_node import qos
+from push_node import interface
 from push_node.stamps import to_nanoseconds, to_seconds
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 
 
@@ -44,10 +45,10 @@ class PosePair:
         self._node_clock = node.get_clock()
         self._lockstep = lockstep
         self.restart()
-        node.create_subscription(PoseStamped, 'object_pose', self._on_object, qos.POSE)
-        node.create_subscription(PoseStamped, 'pusher_pose', self._on_tip, qos.POSE)
+        interface.OBJECT_POSE.subscription(node, self._on_object)
+        interface.PUSHER_POSE.subscription(node, self._on_tip)
         if lockstep:
-            node.create_subscription(Clock, '/clock', self._on_clock, 1)
+            interface.CLOCK.subscription(node, self._on_clock, qos=QoSProfile(depth=1))
 
     def restart(self) -> None:
         """Forgets all pairs: time [s] counts from the next one."""

@@ -3,6 +3,7 @@
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from push_node import interface
 from push_node.diagnostics import status_name
 from rclpy.node import Node
 
@@ -16,7 +17,7 @@ class RecorderWatch:
         namespace = node.get_namespace().rstrip('/')
         self._name = status_name(f'{namespace}/recorder', 'recording')
         self._last_good = -_FRESH
-        node.create_subscription(DiagnosticArray, '/diagnostics', self._on_diagnostics, 10)
+        interface.DIAGNOSTICS.subscription(node, self._on_diagnostics)
 
     @property
     def is_recording(self) -> bool:

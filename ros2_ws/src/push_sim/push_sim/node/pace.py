@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from push_core.geometry import Array
+from push_node import interface
 from push_node.stamps import to_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -95,7 +96,7 @@ class LockstepPace:
     def __init__(self, node: Node, plant: Plant, publish: Callable[[Observation], None]) -> None:
         self._plant = plant
         self._publish = publish
-        self._clock = node.create_publisher(ClockMessage, '/clock', 10)
+        self._clock = interface.CLOCK.publisher(node)
         self._answered = False
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(_RESEND_PERIOD, self._resend, clock=steady)

@@ -3,19 +3,16 @@
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from geometry_msgs.msg import TwistStamped
 from push_core.common import InputError, PushError
-from push_msgs.msg import Perturbation as PerturbationMessage
 from push_msgs.srv import Perturb, Reset
+from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
-from push_node.qos import COMMAND, EVENT, POSE, SCENE, TF
 from push_node.realtime import settled
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
-from tf2_msgs.msg import TFMessage
-from visualization_msgs.msg import MarkerArray
 
 from push_sim.node.conversions import (
     commanded_velocity,
@@ -49,9 +46,9 @@ class SimNode(Node):  # type: ignore[misc]
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)
         self._pace.restart(self._start())
-        self.create_subscription(TwistStamped, 'pusher_velocity_cmd', self._on_command, COMMAND)
-        self.create_service(Reset, 'push_sim/reset', self._on_reset)
-        self.create_service(Perturb, 'push_sim/perturb', self._on_perturb)
+        interface.PUSHER_VELOCITY_CMD.subscription(self, self._on_command)
+        interface.RESET.service(self, self._on_reset)
+        interface.PERTURB.service(self, self._on_perturb)
         self.create_timer(_SCENE_PERIOD, self._publish_scene)
         self.create_timer(_HEALTH_PERIOD, self._report)
         profile, mode = self._settings.profile, self._settings.mode
@@ -63,11 +60,11 @@ class SimNode(Node):  # type: ignore[misc]
         self._plant.close()
 
     def _make_publishers(self) -> None:
-        self._object = self.create_publisher(PoseStamped, 'object_pose', POSE)
-        self._pusher = self.create_publisher(PoseStamped, 'pusher_pose', POSE)
-        self._perturbation = self.create_publisher(PerturbationMessage, 'perturbation', EVENT)
-        self._scene = self.create_publisher(MarkerArray, 'scene', SCENE)
-        self._tf = self.create_publisher(TFMessage, '/tf', TF)
+        self._object = interface.OBJECT_POSE.publisher(self)
+        self._pusher = interface.PUSHER_POSE.publisher(self)
+        self._perturbation = interface.PERTURBATION.publisher(self)
+        self._scene = interface.SCENE_MARKERS.publisher(self)
+        self._tf = interface.TRANSFORMS.publisher(self)
         self._frames = Transforms(self.get_namespace())
         self._reporter = Reporter(self, 'plant')
 

@@ -1,0 +1,176 @@
+"""The interface of the graph: every topic and every service, each defined here alone."""
+
+from rclpy.qos import QoSProfile
+
+from push_node.endpoints import GraphService, GraphTopic
+from push_node.qos import COMMAND, EVENT, HISTORY, LATCHED, POSE, SCENE, STATE, TF
+
+OBJECT_POSE = GraphTopic(
+    'object_pose',
+    'geometry_msgs/msg/PoseStamped',
+    POSE,
+    '100 Hz',
+    ('sim_node',),
+    'measured pose of the object; stamp = time of exposure',
+    core=True,
+)
+PUSHER_POSE = GraphTopic(
+    'pusher_pose',
+    'geometry_msgs/msg/PoseStamped',
+    POSE,
+    '100 Hz',
+    ('sim_node',),
+    'measured position of the tip; stamp = time of exposure',
+    core=True,
+)
+PUSHER_VELOCITY_CMD = GraphTopic(
+    'pusher_velocity_cmd',
+    'geometry_msgs/msg/TwistStamped',
+    COMMAND,
+    '100 Hz',
+    ('mpc_node',),
+    'velocity of the tip; stamp = that of the pose it answers',
+    core=True,
+)
+NOMINAL_TRAJECTORY = GraphTopic(
+    'nominal_trajectory',
+    'push_msgs/msg/NominalTrajectory',
+    LATCHED,
+    'once per track',
+    ('mpc_node',),
+    'the timed reference',
+    core=True,
+)
+CONTROLLER_STATE = GraphTopic(
+    'controller_state',
+    'push_msgs/msg/ControllerState',
+    STATE,
+    '100 Hz',
+    ('mpc_node',),
+    'inputs, result and timing of one control tick',
+    core=True,
+)
+MODEL_INFO = GraphTopic(
+    'model_info',
+    'push_msgs/msg/ModelInfo',
+    LATCHED,
+    'once per model',
+    ('gp_server',),
+    'identity, hyperparameters and input range of the model',
+    core=True,
+)
+ADDED_PUSHES = GraphTopic(
+    'added_pushes',
+    'push_msgs/msg/AddedPushes',
+    HISTORY,
+    'on event',
+    ('gp_server',),
+    'pushes that `push_gp/add_pushes` added to the model',
+)
+HORIZON = GraphTopic(
+    'horizon',
+    'push_msgs/msg/Horizon',
+    STATE,
+    '20 Hz',
+    ('mpc_node',),
+    'planned poses of the object over the horizon',
+)
+PERTURBATION = GraphTopic(
+    'perturbation',
+    'push_msgs/msg/Perturbation',
+    EVENT,
+    'on event',
+    ('sim_node',),
+    'a disturbance that the plant applied',
+)
+RUN_END = GraphTopic(
+    'run_end',
+    'std_msgs/msg/String',
+    LATCHED,
+    'at the end',
+    ('cell',),
+    'why the run ended early; empty if it was completed',
+)
+SCENE_MARKERS = GraphTopic(
+    'scene',
+    'visualization_msgs/msg/MarkerArray',
+    SCENE,
+    '20 Hz',
+    ('sim_node',),
+    'object and tip for a viewer',
+)
+DIAGNOSTICS = GraphTopic(
+    '/diagnostics',
+    'diagnostic_msgs/msg/DiagnosticArray',
+    QoSProfile(depth=10),
+    '1 Hz',
+    ('sim_node', 'gp_server', 'mpc_node', 'recorder'),
+    'health of each node',
+)
+TRANSFORMS = GraphTopic(
+    '/tf',
+    'tf2_msgs/msg/TFMessage',
+    TF,
+    '100 Hz',
+    ('sim_node',),
+    'frames `slider` and `pusher` in `world`',
+)
+CLOCK = GraphTopic(
+    '/clock',
+    'rosgraph_msgs/msg/Clock',
+    QoSProfile(depth=10),
+    'lockstep only',
+    ('sim_node',),
+    'simulated time',
+)
+
+TOPICS = (
+    *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD, NOMINAL_TRAJECTORY, CONTROLLER_STATE),
+    *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, RUN_END, SCENE_MARKERS),
+    *(DIAGNOSTICS, TRANSFORMS, CLOCK),
+)
+
+RESET = GraphService(
+    'push_sim/reset',
+    'push_msgs/srv/Reset',
+    'sim_node',
+    'puts the plant into an exact state: at rest, command queue empty, random state from the seed',
+)
+PERTURB = GraphService(
+    'push_sim/perturb',
+    'push_msgs/srv/Perturb',
+    'sim_node',
+    'disturbs the object now',
+)
+PREDICT = GraphService(
+    'push_gp/predict',
+    'push_msgs/srv/Predict',
+    'gp_server',
+    'mean (n×3), variance (n×3) and Jacobian (n×3×2) of the motion for n inputs [p_y, β]',
+)
+ADD_PUSHES = GraphService(
+    'push_gp/add_pushes',
+    'push_msgs/srv/AddPushes',
+    'gp_server',
+    'extends the model by training pushes',
+)
+START = GraphService(
+    'push_mpc/start',
+    'std_srvs/srv/Trigger',
+    'mpc_node',
+    'starts a run; refused until model, solver, poses and recorder are ready',
+)
+STOP = GraphService(
+    'push_mpc/stop',
+    'std_srvs/srv/Trigger',
+    'mpc_node',
+    'stops the tip; latched until `push_mpc/resume`',
+)
+RESUME = GraphService(
+    'push_mpc/resume',
+    'std_srvs/srv/Trigger',
+    'mpc_node',
+    'releases a stop',
+)
+
+SERVICES = (RESET, PERTURB, PREDICT, ADD_PUSHES, START, STOP, RESUME)
