@@ -20,7 +20,7 @@ from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.table.surrogate import Grid, Table
 from push_sim.plant.perturbation import Kind, Perturbation
 from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import profile
+from push_sim.settings.profiles import profile
 from scipy import sparse
 
 Differences = Callable[[Callable[[Array], Array], Array, float], Array]

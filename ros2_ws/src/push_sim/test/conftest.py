@@ -14,18 +14,17 @@ from push_core.physics.slider import Slider
 from push_sim.collect.collector import Collector
 from push_sim.collect.push_design import PushDesign
 from push_sim.collect.push_sampling import uniform
-from push_sim.measured.replay_long import replay_long
-from push_sim.measured.replay_run import replay_run
+from push_sim.measured.replay import replay_long_pushes, replay_windows
 from push_sim.measured.robot_run import COLUMNS as RUN_COLUMNS
 from push_sim.measured.robot_run import RobotRun
 from push_sim.measured.run_windows import INTERVAL, Windows
-from push_sim.measured.tip_replay import commanded_tip
+from push_sim.measured.tip_replay import modelled_tip
 from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import SimSettings, WorldSettings, profile
+from push_sim.settings.plant_settings import SimSettings, WorldSettings
+from push_sim.settings.profiles import profile
 from push_sim.worlds.common.world import World
-from push_sim.worlds.engines import make_world
+from push_sim.worlds.engines import ENGINES, make_world
 
-ENGINES = ('bullet', 'quasi_static')
 POSE = np.array([0.1, -0.2, 0.3])
 
 
@@ -50,7 +49,7 @@ def weave():
     return velocity
 
 
-@pytest.fixture(params=ENGINES)
+@pytest.fixture(params=sorted(ENGINES))
 def engine(request: pytest.FixtureRequest) -> str:
     return request.param
 
@@ -116,7 +115,7 @@ def _long_pushes(world: WorldSettings, count: int) -> Array:
         poses.append(pose)
         tips.append([tip, tip + rotation(face[2]) @ way])
     start, tip = np.array(poses), np.array(tips)
-    end = replay_long(world, slider, start, tip[:, 0], tip[:, 1])
+    end = replay_long_pushes(world, slider, start, tip[:, 0], tip[:, 1])
     return np.hstack((start, end, tip[:, 0], tip[:, 1]))
 
 
@@ -126,7 +125,7 @@ def _run(plant: SimSettings) -> Array:
     commanded = np.column_stack((0.04 * time, 0.004 * np.sin(2.5 * time)))
     still = np.tile([0.049750001, 0.0, 0.0], (time.size, 1))
     asked = RobotRun('weave.csv', time, still, commanded, np.zeros_like(commanded))
-    sensed = commanded_tip(asked, plant.actuator)
+    sensed = modelled_tip(asked, plant.actuator)
     every = round(INTERVAL / 0.002)
     path = sensed[::every]
     # the object is right at the edges of the windows, which is where it is compared
@@ -134,7 +133,7 @@ def _run(plant: SimSettings) -> Array:
     for first in range(0, len(path) - 1, _WINDOW_POINTS):
         tip = path[first : first + _WINDOW_POINTS + 1]
         cut = Windows(poses[-1][None], poses[-1][None], tip[None])
-        poses.append(replay_run(plant.world, Slider(), cut)[0])
+        poses.append(replay_windows(plant.world, Slider(), cut)[0])
     marks = np.arange(len(poses)) * _WINDOW_POINTS * INTERVAL
     pose = np.column_stack([np.interp(time, marks, axis) for axis in np.array(poses).T])
     return np.column_stack((time, pose, commanded, sensed))

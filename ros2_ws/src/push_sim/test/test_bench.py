@@ -3,14 +3,13 @@ import json
 import pytest
 from push_core.common.settings import replaced
 from push_core.physics.slider import Slider
-from push_sim.commands import plant_speed
-from push_sim.commands.bench import main
-from push_sim.commands.plant_speed import memory_growth
-from push_sim.settings.plant_settings import profile
+from push_sim.commands import bench
+from push_sim.commands.bench import main, memory_growth
+from push_sim.settings.profiles import profile
 
 
 def test_it_measures_and_says_so_in_one_json_object(capsys, monkeypatch) -> None:
-    monkeypatch.setattr(plant_speed, '_REPEATS', 1)
+    monkeypatch.setattr(bench, '_REPEATS', 1)
     assert main(['--engine', 'quasi_static', '--resets', '5', '--json']) == 0
     figures = json.loads(capsys.readouterr().out)
     assert figures['engine'] == 'quasi_static'

@@ -8,15 +8,13 @@ import pytest
 import yaml
 from push_core.common.workers import workers
 from push_core.physics.slider import Slider
-from push_sim.calibration.as_json import calibration_json
-from push_sim.calibration.as_table import calibration_table
-from push_sim.calibration.fit import Calibration, calibration, rounded
-from push_sim.calibration.parameter_file import parameter_file
+from push_sim.calibration.calibration import PlantCalibration, calibrate_plant, rounded
+from push_sim.calibration.output import calibration_json, calibration_table, ros_parameter_file
 from push_sim.commands.calibrate import main
 from push_sim.fitting.bootstrap import bootstrap_deviation
-from push_sim.measured.measured_data import read_measured_data
-from push_sim.measured.split import split
-from push_sim.settings.plant_settings import WorldSettings, profile
+from push_sim.measured.measured_data import read_measured_data, split_measurements
+from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings.profiles import profile
 
 # the engine without inertia is as good a plant to be found again, and ten times faster
 START = replace(profile('irb120'), world=WorldSettings(engine='quasi_static'))
@@ -33,9 +31,9 @@ def folder(measure_artificially, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 
 @pytest.fixture(scope='module')
-def found(folder: Path) -> Calibration:
+def found(folder: Path) -> PlantCalibration:
     with workers(1) as run_in:
-        return calibration(read_measured_data(folder), START, Slider(), run_in, seed=0)
+        return calibrate_plant(read_measured_data(folder), START, Slider(), run_in, seed=0)
 
 
 def test_the_parameters_of_a_known_plant_are_found_within_their_uncertainty(found) -> None:
@@ -50,7 +48,7 @@ def test_the_parameters_of_a_known_plant_are_found_within_their_uncertainty(foun
     assert found.settings.actuator.lag == pytest.approx(0.033, abs=1e-3)
 
 
-def test_what_was_not_fitted_stays(found: Calibration) -> None:
+def test_what_was_not_fitted_stays(found: PlantCalibration) -> None:
     assert found.settings.sensor == START.sensor
     assert found.settings.world.stiffness == START.world.stiffness
     # this engine has no feet, so that their stiffness changes nothing
@@ -58,7 +56,7 @@ def test_what_was_not_fitted_stays(found: Calibration) -> None:
     assert found.world.stiffness_effect < 1e-12
 
 
-def test_the_rest_is_told_as_well_as_the_part_that_was_fitted(found: Calibration) -> None:
+def test_the_rest_is_told_as_well_as_the_part_that_was_fitted(found: PlantCalibration) -> None:
     figures = calibration_json(found, 0, 'abc')
     assert figures['fitted']['pushes_4mm']['n'] == figures['kept']['pushes_4mm']['n'] == 24
     for bar in figures['bars']:
@@ -66,22 +64,22 @@ def test_the_rest_is_told_as_well_as_the_part_that_was_fitted(found: Calibration
         assert bar['kept'] < bar['limit']
     shown = calibration_table(figures)
     assert 'world.support_radius' in shown
-    assert 'do not tell it' in shown
+    assert 'do not identify it' in shown
 
 
 def test_the_seed_alone_decides_which_pushes_are_fitted_and_none_is_in_both_parts(
     folder: Path,
 ) -> None:
     data = read_measured_data(folder)
-    first, again, other = (split(data, seed) for seed in (0, 0, 1))
+    first, again, other = (split_measurements(data, seed) for seed in (0, 0, 1))
     assert first[0].short.sha256() == again[0].short.sha256() != other[0].short.sha256()
     p_y = np.concatenate([part.short.p_y for part in first])
     assert np.array_equal(np.sort(p_y), np.sort(data.short.p_y))
     assert [len(part.long['square_50mm_pushes_artificial.csv']) for part in first] == [3, 3]
 
 
-def test_the_parameter_file_is_one_for_plant_and_controller(found: Calibration) -> None:
-    blocks = yaml.safe_load(parameter_file(found.parameters, 'abc'))
+def test_the_parameter_file_is_one_for_plant_and_controller(found: PlantCalibration) -> None:
+    blocks = yaml.safe_load(ros_parameter_file(found.parameters, 'abc'))
     sim, mpc = (blocks[f'/**/{node}']['ros__parameters'] for node in ('sim_node', 'mpc_node'))
     assert sim['world.support_radius'] == found.settings.world.support_radius
     assert sim['actuator.lag'] == mpc['actuator.lag'] == found.settings.actuator.lag

@@ -11,11 +11,11 @@ from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_sim.collect.collection import Collection, collect_pushes, collected
 from push_sim.collect.push_design import PushDesign
-from push_sim.collect.short_push import short_push
+from push_sim.collect.short_push import execute_push
 from push_sim.commands.collect import main
-from push_sim.settings.plant_settings import profile
+from push_sim.settings.profiles import profile
 from push_sim.worlds.bullet.bullet_world import BulletWorld
-from push_sim.worlds.quick_world import quick_world
+from push_sim.worlds.engines import make_coarse_world
 
 
 def test_the_same_seed_collects_the_same_file(tmp_path: Path) -> None:
@@ -62,10 +62,10 @@ def test_the_cameras_noise_is_in_the_rows(pushes: PushSet) -> None:
 
 
 def test_long_steps_do_not_change_a_push(slider: Slider) -> None:
-    world = quick_world(profile('ideal').world, slider)
+    world = make_coarse_world(profile('ideal').world, slider)
     fine = BulletWorld(profile('ideal').world, slider)
     for p_y, beta in [(0.02, 1.2), (-0.03, 2.0), (0.0, 0.5)]:
-        _, after = short_push(world, slider, PushDesign().timing, p_y, beta)
+        _, after = execute_push(world, slider, PushDesign().timing, p_y, beta)
         fine.reset(np.zeros(3), slider.tip_position(np.zeros(3), p_y))
         fine.advance((0.02 * math.sin(beta), 0.02 * math.cos(beta)), 240)
         assert np.all(np.abs(after.object_pose - fine.object_pose) < [2e-5, 2e-5, 3e-4])

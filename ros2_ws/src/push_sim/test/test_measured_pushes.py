@@ -8,10 +8,9 @@ import pytest
 from push_core.data.accuracy import accuracy
 from push_core.physics.slider import Slider
 from push_sim.measured.measured_data import MeasuredData, read_measured_data
-from push_sim.measured.replay_long import replay_long
-from push_sim.measured.replay_short import replay_short
-from push_sim.measured.tip_replay import rms_coordinate, tip_gap
-from push_sim.settings.plant_settings import profile
+from push_sim.measured.replay import replay_long_pushes, replay_short_pushes
+from push_sim.measured.tip_replay import rms_coordinate, tip_error
+from push_sim.settings.profiles import profile
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR', Path(__file__).parents[5] / 'shared' / 'data'))
 EVERY = 25
@@ -29,7 +28,7 @@ def data() -> MeasuredData:
 def test_short_pushes_come_out_as_measured(data: MeasuredData, slider: Slider) -> None:
     assert data.short is not None
     pushes = data.short.take(np.arange(0, len(data.short), EVERY))
-    made = replay_short(profile('irb120').world, slider, pushes.inputs, pushes.distance)
+    made = replay_short_pushes(profile('irb120').world, slider, pushes.inputs, pushes.distance)
     # a GP of 1000 measured pushes reaches 0.037, a fitted ellipsoid 0.066
     assert accuracy(made, pushes).nmse_push_frame.mean() <= 0.07
 
@@ -42,7 +41,7 @@ def test_long_pushes_that_stay_on_the_face_end_as_measured(
     chosen[np.flatnonzero(pushes.on_face)[::9]] = True
     rows = np.flatnonzero(chosen)
     ends = pushes.end.copy()
-    ends[rows] = replay_long(
+    ends[rows] = replay_long_pushes(
         profile('irb120').world,
         slider,
         *(column[rows] for column in (pushes.start, pushes.tip_start, pushes.tip_end)),
@@ -54,4 +53,4 @@ def test_long_pushes_that_stay_on_the_face_end_as_measured(
 
 def test_the_tip_of_the_unperturbed_run_follows_as_measured(data: MeasuredData) -> None:
     run = next(run for run in data.runs if 'unperturbed' in run.name)
-    assert rms_coordinate(tip_gap(run, profile('irb120').actuator)) <= 0.25e-3
+    assert rms_coordinate(tip_error(run, profile('irb120').actuator)) <= 0.25e-3

@@ -11,7 +11,7 @@ from push_core.geometry.frames import rotation, to_body
 from push_core.physics.slider import Slider
 from push_sim.plant.perturbation import Kind, Perturbation
 from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import PROFILES, profile
+from push_sim.settings.profiles import PROFILES, profile
 
 POSE = np.array([0.1, -0.2, 0.3])
 FORWARD = rotation(POSE[2]) @ [0.05, 0.0]
@@ -99,7 +99,7 @@ def test_another_process_gives_the_same_trajectory(slider) -> None:
     program = (
         'import numpy as np; from push_core.physics.slider import Slider;'
         'from push_sim.plant.plant import Plant;'
-        'from push_sim.settings.plant_settings import profile;'
+        'from push_sim.settings.profiles import profile;'
         'plant = Plant(profile("irb120"), Slider()); pose = np.array([0.1, -0.2, 0.3]);'
         'plant.reset(pose, Slider().tip_position(pose, 0.01), 3);'
         '[(plant.command(np.array([0.08, 0.02]), plant.time), plant.step()) for _ in range(80)];'

@@ -1,9 +1,12 @@
 import pytest
 from push_core.common.errors import InputError
 from push_core.common.settings import flatten, replaced
+from push_core.physics.actuator import ACTUATORS
 from push_sim.node.node_settings import NodeSettings, node_settings
 from push_sim.node.sim_node import main
-from push_sim.settings.plant_settings import PROFILES, profile
+from push_sim.settings.plant_settings import ENGINE_NAMES
+from push_sim.settings.profiles import PROFILES, profile
+from push_sim.worlds.engines import ENGINES
 
 
 @pytest.mark.parametrize(
@@ -60,6 +63,14 @@ def test_the_node_starts_from_its_profile(name: str) -> None:
     assert settings.profile == name
     assert settings.sensor == PROFILES[name].sensor
     assert settings.actuator == PROFILES[name].actuator
+
+
+def test_every_engine_can_be_chosen() -> None:
+    assert set(ENGINE_NAMES) == set(ENGINES)
+
+
+def test_every_profile_has_an_actuator_that_the_controller_knows() -> None:
+    assert set(PROFILES) == set(ACTUATORS)
 
 
 def test_every_parameter_is_described() -> None:

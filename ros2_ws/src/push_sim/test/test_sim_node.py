@@ -18,7 +18,7 @@ from push_node.qos import COMMAND, EVENT, POSE
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
 from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import profile
+from push_sim.settings.profiles import profile
 from rclpy.node import Node
 
 pytestmark = pytest.mark.processes

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from push_core.physics.actuator import ActuatorSettings
 from push_sim.commands.validate import main
-from push_sim.fitting.actuator_fit import fitted_actuator
+from push_sim.fitting.actuator_fit import fit_actuator
 from push_sim.measured.measured_data import read_measured_data
-from push_sim.measured.tip_replay import rms_coordinate, tip_gap
-from push_sim.settings.plant_settings import profile
+from push_sim.measured.tip_replay import rms_coordinate, tip_error
+from push_sim.settings.profiles import profile
 
 ACTUATOR = replace(profile('irb120').actuator, dead_time=0.0713, lag=0.0334)
 PLANT = replace(profile('ideal'), actuator=ACTUATOR)
@@ -59,8 +59,8 @@ def test_the_lag_of_a_run_is_identified_within_a_millisecond(figures: dict) -> N
 def test_the_fit_of_the_lag_does_not_depend_on_where_it_starts(folder: Path) -> None:
     (run,) = read_measured_data(folder).runs
     for dead_time, lag in ((0.0, 0.0), (0.15, 0.01)):
-        found = fitted_actuator(run, ActuatorSettings(dead_time=dead_time, lag=lag))
-        assert rms_coordinate(tip_gap(run, found.settings)) < 1e-5
+        found = fit_actuator(run, ActuatorSettings(dead_time=dead_time, lag=lag))
+        assert rms_coordinate(tip_error(run, found.settings)) < 1e-5
 
 
 def test_table_and_page_show_every_part_and_say_what_is_missing(

@@ -1,8 +1,6 @@
-"""Plant parameters fitted to measurements, and the parameter file made of them."""
+"""Calibration of the plant: parameters fitted to measurements, and their parameter file."""
 
-from push_sim.calibration.as_json import calibration_json
-from push_sim.calibration.as_table import calibration_table
-from push_sim.calibration.fit import calibration
-from push_sim.calibration.parameter_file import parameter_file
+from push_sim.calibration.calibration import calibrate_plant
+from push_sim.calibration.output import calibration_json, calibration_table, ros_parameter_file
 
-__all__ = ['calibration', 'calibration_json', 'calibration_table', 'parameter_file']
+__all__ = ['calibrate_plant', 'calibration_json', 'calibration_table', 'ros_parameter_file']

@@ -1,4 +1,4 @@
-"""Pushes in the simulator by the hundred, in several processes."""
+"""Collects simulated pushes, in several processes."""
 
 import math
 from collections.abc import Iterator
@@ -14,15 +14,15 @@ from tqdm import tqdm
 
 from push_sim.collect.collector import Collector
 from push_sim.collect.push_design import PushDesign
-from push_sim.collect.push_sampling import SAMPLINGS, Aim
+from push_sim.collect.push_sampling import SAMPLINGS, Sampler
 from push_sim.settings import SimSettings, profile
 
-_MOST_IN_CHUNK = 250
+_LARGEST_CHUNK = 250
 
 
 @dataclass(frozen=True)
 class Collection:
-    """One collection, as every process needs to know it."""
+    """Everything that determines the rows of a collection."""
 
     pushes: int
     seed: int
@@ -31,8 +31,8 @@ class Collection:
     sampling: str
 
     @property
-    def aim(self) -> Aim:
-        """Where each push sets out."""
+    def sampler(self) -> Sampler:
+        """Contact offset and direction of each push."""
         return SAMPLINGS[self.sampling](self.design, Slider().side, self.pushes)
 
 
@@ -44,18 +44,18 @@ def collect_pushes(
     jobs: int = 1,
     sampling: str = 'uniform',
 ) -> PushSet:
-    """Makes pushes in the simulator; the rows do not depend on the number of processes.
+    """Simulates pushes and measures them; the rows do not depend on the number of processes.
 
     Args:
-        pushes: how many.
-        seed: of contact points, directions and noise, not negative.
-        profile_name: of the cell; its cameras' noise is in the rows.
-        design: how the tip pushes; default: as the measured ones.
+        pushes: number of pushes.
+        seed: seed of contact offsets, directions, start poses and noise; not negative.
+        profile_name: profile of the plant; the rows have its measurement noise.
+        design: speed and length of the pushes; by default those of the measured ones.
         jobs: number of processes.
         sampling: one of `SAMPLINGS`.
 
     Raises:
-        InputError: the sampling cannot make so many or such long pushes.
+        InputError: the sampling does not allow this number or length of pushes.
         RunError: a push does not stay on the face.
     """
     collection = Collection(pushes, seed, profile(profile_name), design or PushDesign(), sampling)
@@ -64,10 +64,10 @@ def collect_pushes(
 
 
 def collected(collection: Collection, jobs: int) -> Iterator[Array]:
-    """All rows (5,) in order; an impossible sampling fails before the processes start."""
-    _ = collection.aim  # raises
-    # a world takes as long to make as five pushes
-    size = min(_MOST_IN_CHUNK, math.ceil(collection.pushes / jobs))
+    """All rows (5,) in order; an impossible sampling raises before the processes start."""
+    _ = collection.sampler
+    # making a world takes as long as five pushes
+    size = min(_LARGEST_CHUNK, math.ceil(collection.pushes / jobs))
     firsts = range(0, collection.pushes, size)
     tasks = ((collection, first, min(first + size, collection.pushes)) for first in firsts)
     bar: tqdm[Any]
@@ -81,6 +81,8 @@ def collected(collection: Collection, jobs: int) -> Iterator[Array]:
 
 
 def _chunk(collection: Collection, first: int, end: int) -> list[Array]:
-    """The rows of the pushes of some numbers."""
-    with Collector(collection.settings, Slider(), collection.design, collection.aim) as collector:
+    """The rows of pushes `first` to `end - 1`."""
+    with Collector(
+        collection.settings, Slider(), collection.design, collection.sampler
+    ) as collector:
         return [collector.push(collection.seed, number) for number in range(first, end)]

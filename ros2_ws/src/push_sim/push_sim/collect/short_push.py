@@ -1,8 +1,4 @@
-"""One short straight push in a world, from settled contact on.
-
-The tip sets out from the face and pushes; once the contact has settled, object and tip are looked
-at, and again at the end of the push.
-"""
+"""One short straight push in a world: starts at the face, is measured once contact has settled."""
 
 import math
 from dataclasses import dataclass
@@ -34,9 +30,9 @@ class PushTiming:
     """A straight push in time steps of the world.
 
     Attributes:
-        speed: of the tip [m/s].
-        settling: time steps of pushing before the first look.
-        pushing: time steps from the first look to the second.
+        speed: speed of the tip [m/s].
+        settling: time steps of pushing before the first measurement.
+        pushing: time steps from the first measurement to the second.
     """
 
     speed: float
@@ -44,7 +40,7 @@ class PushTiming:
     pushing: int
 
 
-def short_push(
+def execute_push(
     world: World,
     slider: Slider,
     timing: PushTiming,
@@ -53,19 +49,19 @@ def short_push(
     pose: Array = ORIGIN,
     seed: int = 0,
 ) -> tuple[Instant, Instant]:
-    """Pushes an object at rest; settling moves it before the first look.
+    """Pushes an object that was at rest.
 
     Args:
-        world: where.
-        slider: what is pushed.
-        timing: how fast and how long.
-        p_y: contact offset [m] at which the tip sets out.
-        beta: direction [rad] of its motion relative to the object then.
-        pose: (3,) where the object lies before [m, m, rad].
-        seed: of what the world draws at random.
+        world: is reset.
+        slider: places the tip at the face.
+        timing: speed and duration.
+        p_y: contact offset [m] at which the tip starts.
+        beta: direction [rad] of the tip's motion, relative to the object at the start.
+        pose: (3,) start pose of the object [m, m, rad].
+        seed: seed of the world's random parts.
 
     Returns:
-        Start and end of the push.
+        States after settling and at the end.
     """
     heading = pose[2] + math.pi / 2.0 - beta
     velocity = timing.speed * math.cos(heading), timing.speed * math.sin(heading)

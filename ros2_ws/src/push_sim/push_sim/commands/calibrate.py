@@ -1,4 +1,4 @@
-"""The command that fits the plant to measurements: `ros2 run push_sim calibrate`."""
+"""Fits the plant to measurements: `ros2 run push_sim calibrate`."""
 
 import argparse
 import sys
@@ -16,15 +16,20 @@ from push_core.common import (
 )
 from push_core.physics import Slider
 
-from push_sim.calibration import calibration, calibration_json, calibration_table, parameter_file
+from push_sim.calibration import (
+    calibrate_plant,
+    calibration_json,
+    calibration_table,
+    ros_parameter_file,
+)
 from push_sim.commands.command_checks import check_jobs, check_seed
 from push_sim.measured import files_hash, read_measured_data
 from push_sim.settings import PROFILES, profile
 
-EPILOG = """what happens:
-Friction and support are fitted to half of the short pushes and half of the long ones on the face,
-drawn by the seed, dead time and lag to the last run by name. The rest judges the fit. Deviations
-are standard deviations by a bootstrap. It takes a few minutes on two cores.
+EPILOG = """method:
+Friction of the pusher and support radius are fitted to a random half of the short pushes and of
+the long pushes on the face, dead time and lag to the last run by name. The rest is the test set.
+Standard deviations come from a bootstrap. It takes a few minutes on two cores.
 
 examples:
   ros2 run push_sim calibrate --data ../shared/data
@@ -35,12 +40,14 @@ examples:
 
 def parser() -> Parser:
     """Describes the command line."""
-    described = Parser('Fits friction, support and lag of the plant to measurements.', EPILOG)
-    described.add_argument('--data', type=Path, required=True, metavar='DIR', help='measurements')
-    described.add_argument('--seed', type=int, default=0, help='of the split (default 0)')
-    described.add_argument(
-        '--profile', choices=PROFILES, default='irb120', help='plant at which the search begins'
+    described = Parser(
+        'Fits friction, support radius and lag of the plant to measurements.', EPILOG
     )
+    described.add_argument('--data', type=Path, required=True, metavar='DIR', help='measurements')
+    described.add_argument(
+        '--seed', type=int, default=0, help='of split and bootstrap (default 0)'
+    )
+    described.add_argument('--profile', choices=PROFILES, default='irb120', help='initial guess')
     described.add_argument(
         '-o', '--output', type=Path, metavar='FILE', help='ROS parameter file, for cell --params'
     )
@@ -52,22 +59,23 @@ def parser() -> Parser:
 
 
 def work(arguments: argparse.Namespace) -> None:
-    """Fits, reports and writes.
+    """Fits, prints and writes.
 
     Raises:
-        InputError: the folder holds nothing, a file is faulty, or a number is out of range.
+        InputError: the folder has no measurements, a file is faulty, or a number is out of range.
     """
     check_jobs(arguments.jobs)
     check_seed(arguments.seed)
     if arguments.output:
         check_place(arguments.output)
-    data, measured = read_measured_data(arguments.data), files_hash(arguments.data)
+    data, data_hash = read_measured_data(arguments.data), files_hash(arguments.data)
+    start, seed = profile(arguments.profile), arguments.seed
     with workers(arguments.jobs) as run_in:
-        found = calibration(data, profile(arguments.profile), Slider(), run_in, arguments.seed)
+        result = calibrate_plant(data, start, Slider(), run_in, seed)
     if arguments.output:
-        content = parameter_file(found.parameters, measured)
+        content = ros_parameter_file(result.parameters, data_hash)
         write_atomically(arguments.output, content.encode())
-    figures = calibration_json(found, arguments.seed, measured)
+    figures = calibration_json(result, seed, data_hash)
     if arguments.json:
         sys.stdout.write(json_text(figures))
     else:

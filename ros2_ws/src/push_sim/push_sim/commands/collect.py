@@ -1,4 +1,4 @@
-"""The command that collects pushes in the simulator: `ros2 run push_sim collect`."""
+"""Collects simulated pushes: `ros2 run push_sim collect`."""
 
 import argparse
 import sys
@@ -12,11 +12,11 @@ from push_sim.collect import SAMPLINGS, PushDesign, collect_pushes
 from push_sim.commands.command_checks import check_jobs, check_range, check_seed
 from push_sim.settings import PROFILES
 
-EPILOG = """how the pushes are chosen (--sampling):
-  uniform   drawn evenly over 95 % of the face and directions up to 84 degrees from the normal
-  grid      the middles of k x k cells over both; N has to be a square number
-  die       the five of a die in turn: the middle of the face along the normal, and half-way to
-            each end 30 degrees to either side
+EPILOG = """contact offsets and directions (--sampling):
+  uniform   random over 95 % of the face and directions up to 84 degrees from the normal
+  grid      centres of k x k cells over both; N must be a square number
+  die       five pushes, repeated: the middle of the face along the normal, and half-way to each
+            end 30 degrees to either side
 
 examples:
   ros2 run push_sim collect --pushes 5000 -o pushes.csv
@@ -28,10 +28,10 @@ examples:
 def parser() -> Parser:
     """Describes the command line."""
     design = PushDesign()
-    described = Parser('Collects straight pushes in the simulator as a CSV file.', EPILOG)
-    described.add_argument('--pushes', type=int, required=True, metavar='N', help='how many')
+    described = Parser('Simulates short straight pushes and writes them to a CSV file.', EPILOG)
+    described.add_argument('--pushes', type=int, required=True, metavar='N', help='number')
     described.add_argument('-o', '--output', type=Path, required=True, metavar='FILE')
-    described.add_argument('--seed', type=int, default=0, help='of all draws (default 0)')
+    described.add_argument('--seed', type=int, default=0, help='of all random numbers (default 0)')
     described.add_argument(
         '--sampling', choices=SAMPLINGS, default='uniform', help='see below (default uniform)'
     )

@@ -1,25 +1,25 @@
-"""What the commands of the plant refuse before they begin."""
+"""Range checks of command line options."""
 
 from push_core.common import InputError
 
-MOST_JOBS = 256
+_MOST_JOBS = 256
 
 
 def check_range(name: str, value: int, low: int, high: int) -> None:
-    """Refuses a whole number out of its range.
+    """Checks a whole number.
 
     Raises:
-        InputError: names the option, the value and the range.
+        InputError: it is out of range.
     """
     if not low <= value <= high:
         raise InputError(f'{name} is {value}, must be between {low} and {high}')
 
 
 def check_jobs(jobs: int) -> None:
-    """Refuses a number of processes that cannot be."""
-    check_range('--jobs', jobs, 1, MOST_JOBS)
+    """Checks a number of processes; raises `InputError`."""
+    check_range('--jobs', jobs, 1, _MOST_JOBS)
 
 
 def check_seed(seed: int) -> None:
-    """Refuses a seed that no generator takes."""
+    """Checks the seed of a random generator; raises `InputError`."""
     check_range('--seed', seed, 0, 2**62)

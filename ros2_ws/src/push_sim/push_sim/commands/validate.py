@@ -1,4 +1,4 @@
-"""The command that holds the simulator against measurements: `ros2 run push_sim validate`."""
+"""Compares the simulator with measurements: `ros2 run push_sim validate`."""
 
 import argparse
 import sys
@@ -11,17 +11,23 @@ from push_core.physics import Slider
 from push_sim.commands.command_checks import check_jobs
 from push_sim.measured import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
 from push_sim.settings import PROFILES, profile
-from push_sim.validation import as_json, validation, validation_table
+from push_sim.validation import (
+    compare_with_measurements,
+    validation_json,
+    validation_table,
+    write_validation_page,
+)
 
-EPILOG = f"""what is read from DIR, as far as it is there:
-  {SHORT_FILES:28}short pushes; the simulator repeats each from its p_y and beta
-  {LONG_FILES:28}straight pushes of 50 mm; each is repeated by its tip
-  {RUN_FILES:28}runs of a real cell: the commanded tip through the actuator model,
-  {'':28}the sensed tip against the object over windows of 0.5 s
+EPILOG = f"""files in DIR; at least one kind must be there:
+  {SHORT_FILES:28}short pushes; each is simulated from its p_y and beta
+  {LONG_FILES:28}straight pushes of 50 mm; each is simulated with the measured
+  {'':28}start and end of the tip
+  {RUN_FILES:28}robot runs; the commanded tip is compared through the actuator
+  {'':28}model, the object in windows of 0.5 s with the sensed tip
 
-The ellipsoid beside it is the limit surface that fits the short pushes best. A long push counts
-as on the face where the tip, at its measured end, is still within half a side, and 1 mm, of the
-middle of the face on which it began.
+The ellipsoid is the limit surface that fits the short pushes best. A long push counts as on the
+face if the measured end of the tip is within half a side, and 1 mm, of the middle of the face on
+which it began.
 
 examples:
   ros2 run push_sim validate --data ../shared/data --html validation.html
@@ -36,7 +42,7 @@ def parser() -> Parser:
     described.add_argument('--profile', choices=PROFILES, default='irb120', help='of the plant')
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
     described.add_argument(
-        '--html', type=Path, metavar='FILE', help='also write a page of pictures'
+        '--html', type=Path, metavar='FILE', help='also write a page of figures'
     )
     described.add_argument(
         '--jobs', type=int, default=usable_cores(), metavar='N', help='processes (%(default)s)'
@@ -45,24 +51,22 @@ def parser() -> Parser:
 
 
 def work(arguments: argparse.Namespace) -> None:
-    """Replays and reports.
+    """Compares and prints.
 
     Raises:
-        InputError: the folder holds nothing, a file is faulty, or a number is out of range.
+        InputError: the folder has no measurements, a file is faulty, or a number is out of range.
     """
     check_jobs(arguments.jobs)
     if arguments.html:
         check_place(arguments.html)
     data = read_measured_data(arguments.data)
     with workers(arguments.jobs) as run_in:
-        found = validation(data, profile(arguments.profile), Slider(), run_in)
-    figures = {'profile': arguments.profile, **as_json(found)}
+        settings = profile(arguments.profile)
+        result = compare_with_measurements(data, settings, Slider(), run_in)
+    figures = {'profile': arguments.profile, **validation_json(result)}
     table = validation_table(figures, arguments.profile)
     if arguments.html:
-        # plotly takes a second to import: only who asks for a page waits for it
-        from push_sim.validation.page import write_validation_page  # noqa: PLC0415
-
-        write_validation_page(arguments.html, found, arguments.profile, table)
+        write_validation_page(arguments.html, result, arguments.profile, table)
     sys.stdout.write(json_text(figures) if arguments.json else table)
 
 

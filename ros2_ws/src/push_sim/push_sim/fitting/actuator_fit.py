@@ -1,4 +1,4 @@
-"""The dead time and lag that bring the commanded tip of a robot run nearest to the sensed one."""
+"""Fits dead time and lag of the actuator model to the tip of a robot run."""
 
 from dataclasses import dataclass, replace
 
@@ -8,7 +8,7 @@ from push_core.physics import ActuatorSettings
 from scipy.optimize import least_squares
 
 from push_sim.fitting.bootstrap import bootstrap_deviation
-from push_sim.measured import RobotRun, tip_gap
+from push_sim.measured import RobotRun, tip_error
 
 _LARGEST = 0.5
 _SMALLEST = 1e-4
@@ -17,12 +17,12 @@ _BLOCK = 250
 
 @dataclass(frozen=True)
 class ActuatorFit:
-    """What was found.
+    """A fitted actuator.
 
     Attributes:
-        settings: the actuator with its dead time and lag replaced.
-        residual: (n, 2) from the sensed tip to the model's [m].
-        jacobian: (n, 2, 2) its derivatives by dead time and lag [m/s].
+        settings: the actuator with fitted dead time and lag.
+        residual: (n, 2) modelled minus sensed tip [m].
+        jacobian: (n, 2, 2) derivatives of the residual by dead time and lag [m/s].
     """
 
     settings: ActuatorSettings
@@ -30,9 +30,9 @@ class ActuatorFit:
     jacobian: Array
 
     def deviation(self, seed: int) -> Array:
-        """Standard deviations (2,) of dead time and lag [s], by drawing half seconds of the run.
+        """Standard deviations (2,) of dead time and lag [s], by a block bootstrap.
 
-        Rows next to each other tell the same, so they are drawn together.
+        A block is half a second, because the errors of adjacent rows are correlated.
         """
         blocks = max(2, len(self.residual) // _BLOCK)
         rows = blocks * (len(self.residual) // blocks)
@@ -43,23 +43,23 @@ class ActuatorFit:
         )
 
 
-def fitted_actuator(run: RobotRun, start: ActuatorSettings) -> ActuatorFit:
-    """Least squares of the distance between the model's tip and the sensed one.
+def fit_actuator(run: RobotRun, start: ActuatorSettings) -> ActuatorFit:
+    """Minimises the squared distance between modelled and sensed tip.
 
     Args:
-        run: with as much motion as the lag is to be told from.
-        start: where the search begins; its limits are kept.
+        run: must contain enough motion to identify the lag.
+        start: initial guess; its limits are kept.
     """
-    found = least_squares(
-        lambda times: tip_gap(run, _with_times(start, times)).ravel(),
+    result = least_squares(
+        lambda times: tip_error(run, _with_times(start, times)).ravel(),
         np.clip([start.dead_time, start.lag], _SMALLEST, _LARGEST),
         bounds=(0.0, _LARGEST),
         x_scale=0.01,
         diff_step=0.02,
         xtol=1e-6,
     )
-    settings = _with_times(start, found.x)
-    return ActuatorFit(settings, found.fun.reshape(-1, 2), found.jac.reshape(-1, 2, 2))
+    settings = _with_times(start, result.x)
+    return ActuatorFit(settings, result.fun.reshape(-1, 2), result.jac.reshape(-1, 2, 2))
 
 
 def _with_times(settings: ActuatorSettings, times: Array) -> ActuatorSettings:

@@ -1,4 +1,4 @@
-"""How far a least-squares fit would move with other measurements, by drawing from these."""
+"""Standard deviations of least-squares estimates by a bootstrap."""
 
 import numpy as np
 from push_core.geometry import Array
@@ -10,11 +10,11 @@ def bootstrap_deviation(residual: Array, jacobian: Array, seed: int) -> Array:
     """Standard deviations (p,) of p fitted parameters.
 
     Args:
-        residual: (n, k) of n measurements that are drawn as a whole, k numbers each.
-        jacobian: (n, k, p) their derivatives by the parameters, at the optimum.
-        seed: of the draws.
+        residual: (n, k) residuals of n measurements; a measurement is drawn with all its k values.
+        jacobian: (n, k, p) derivatives of the residuals by the parameters, at the optimum.
+        seed: seed of the draws.
 
-    The fit to each draw is a Gauss-Newton step from the optimum. Source: Efron 1979.
+    The fit to each draw is one Gauss-Newton step from the optimum. Source: Efron 1979.
     """
     count = len(residual)
     random = np.random.default_rng(seed)

@@ -1,4 +1,4 @@
-"""Measured pushes and robot runs, and their repetition in a world."""
+"""Measured pushes and robot runs, and their replay in a simulated world."""
 
 from push_sim.measured.measured_data import (
     LONG_FILES,
@@ -7,27 +7,27 @@ from push_sim.measured.measured_data import (
     MeasuredData,
     files_hash,
     read_measured_data,
+    split_measurements,
 )
-from push_sim.measured.replay import Bar, Replay
+from push_sim.measured.replay import ProgressBar, Replay
 from push_sim.measured.robot_run import RobotRun
-from push_sim.measured.run_windows import Windows, windows
-from push_sim.measured.split import split
-from push_sim.measured.tip_replay import commanded_tip, rms_coordinate, tip_gap
+from push_sim.measured.run_windows import Windows, cut_windows
+from push_sim.measured.tip_replay import modelled_tip, rms_coordinate, tip_error
 
 __all__ = [
     'LONG_FILES',
     'RUN_FILES',
     'SHORT_FILES',
-    'Bar',
     'MeasuredData',
+    'ProgressBar',
     'Replay',
     'RobotRun',
     'Windows',
-    'commanded_tip',
+    'cut_windows',
     'files_hash',
+    'modelled_tip',
     'read_measured_data',
     'rms_coordinate',
-    'split',
-    'tip_gap',
-    'windows',
+    'split_measurements',
+    'tip_error',
 ]

@@ -1,4 +1,4 @@
-"""A robot run cut into windows of half a second, each on its own."""
+"""Cuts a robot run into windows of 0.5 s that are simulated independently."""
 
 from dataclasses import dataclass
 
@@ -6,13 +6,13 @@ import numpy as np
 from push_core.geometry import Array
 
 from push_sim.measured.robot_run import RobotRun
-from push_sim.worlds import SUBSTEP
+from push_sim.worlds import COARSE_SUBSTEP
 
 WINDOW = 0.5
 """Length of a window [s]."""
 
-INTERVAL = 2 * SUBSTEP
-"""Time [s] between the tip positions that a window keeps."""
+INTERVAL = 2 * COARSE_SUBSTEP
+"""Time [s] between the tip positions of a window."""
 
 
 @dataclass(frozen=True)
@@ -20,9 +20,9 @@ class Windows:
     """n windows with k tip positions each.
 
     Attributes:
-        start: (n, 3) measured object pose at the start of each [m, m, rad].
-        end: (n, 3) measured object pose at its end.
-        tip: (n, k, 2) sensed tip, every `INTERVAL` [m].
+        start: (n, 3) measured object pose at the start of each window [m, m, rad].
+        end: (n, 3) measured object pose at its end [m, m, rad].
+        tip: (n, k, 2) sensed tip position, every `INTERVAL` [m].
     """
 
     start: Array
@@ -30,17 +30,17 @@ class Windows:
     tip: Array
 
 
-def windows(run: RobotRun) -> Windows:
-    """The whole windows of a run, one after the other, from its first row on."""
+def cut_windows(run: RobotRun) -> Windows:
+    """The consecutive complete windows of a run, from its first row on."""
     points = round(WINDOW / INTERVAL)
     count = int((run.time[-1] + 1e-9) / WINDOW)
     edges = WINDOW * np.arange(count + 1)
-    poses = _at(run.time, run.object_pose, edges)
+    poses = _interpolated(run.time, run.object_pose, edges)
     times = edges[:-1, None] + INTERVAL * np.arange(points + 1)
-    tip = _at(run.time, run.sensed, times.ravel()).reshape(count, points + 1, 2)
+    tip = _interpolated(run.time, run.sensed, times.ravel()).reshape(count, points + 1, 2)
     return Windows(poses[:-1], poses[1:], tip)
 
 
-def _at(time: Array, values: Array, wanted: Array) -> Array:
-    """Values (n, m) at wanted times (k,), linear between rows."""
-    return np.column_stack([np.interp(wanted, time, column) for column in values.T])
+def _interpolated(time: Array, values: Array, times: Array) -> Array:
+    """Values (n, m) at other times (k,), linear between rows."""
+    return np.column_stack([np.interp(times, time, column) for column in values.T])

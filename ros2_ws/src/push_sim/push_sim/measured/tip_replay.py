@@ -1,4 +1,4 @@
-"""The commanded tip of a robot run through the actuator model."""
+"""Runs the commanded tip of a robot run through the actuator model."""
 
 import math
 
@@ -11,39 +11,38 @@ from push_sim.measured.robot_run import RobotRun
 _PERIOD = 0.002
 
 
-def commanded_tip(run: RobotRun, settings: ActuatorSettings) -> Array:
-    """Where the model brings the tip (n, 2) [m], at the times of a run.
+def modelled_tip(run: RobotRun, settings: ActuatorSettings) -> Array:
+    """Tip positions (n, 2) [m] of the actuator model at the times of a run.
 
-    The robot was commanded by position, the model takes velocities: those that lead from one
-    commanded position to the next, on an even grid of 2 ms, since the rows jitter. It sets out
-    from where the tip was.
+    The robot took position commands, the model takes velocities. The commands are resampled to
+    2 ms, because the rows jitter, and differenced. The model starts at the first sensed position.
     """
     grid = _PERIOD * np.arange(math.ceil(run.time[-1] / _PERIOD) + 1)
-    wanted = np.column_stack([np.interp(grid, run.time, axis) for axis in run.commanded.T])
-    wanted[0] = run.sensed[0]
-    reached = run.sensed[0] + _moved(np.diff(wanted, axis=0) / _PERIOD, settings)
+    command = np.column_stack([np.interp(grid, run.time, axis) for axis in run.commanded.T])
+    command[0] = run.sensed[0]
+    reached = run.sensed[0] + _travel(np.diff(command, axis=0) / _PERIOD, settings)
     return np.column_stack([np.interp(run.time, grid, axis) for axis in reached.T])
 
 
-def tip_gap(run: RobotRun, settings: ActuatorSettings) -> Array:
-    """From the sensed tip to the model's (m, 2) [m], in the rows in which the tip followed."""
-    return (commanded_tip(run, settings) - run.sensed)[: run.following]
+def tip_error(run: RobotRun, settings: ActuatorSettings) -> Array:
+    """Modelled minus sensed tip (m, 2) [m], for the rows in which the tip follows commands."""
+    return (modelled_tip(run, settings) - run.sensed)[: run.following]
 
 
-def rms_coordinate(gap: Array) -> float:
-    """Root mean squared coordinate of vectors (m, 2), as the runs' figures are stated.
+def rms_coordinate(error: Array) -> float:
+    """Root mean square over both coordinates of vectors (m, 2).
 
-    The root mean squared length is the square root of two times this.
+    The root mean square of their length is sqrt(2) times this.
     """
-    return float(np.sqrt(np.mean(gap**2)))
+    return float(np.sqrt(np.mean(error**2)))
 
 
-def _moved(velocities: Array, settings: ActuatorSettings) -> Array:
-    """Way (n + 1, 2) [m] of the tip under n velocity commands, each for one period."""
+def _travel(velocities: Array, settings: ActuatorSettings) -> Array:
+    """Travel (n + 1, 2) [m] of the tip under n velocity commands (n, 2), one for each period."""
     actuator = Actuator(settings)
-    ways = [(0.0, 0.0)]
+    travel = [(0.0, 0.0)]
     for step, velocity in enumerate(velocities):
         actuator.command(velocity, step * _PERIOD)
         x, y = actuator.advance(step * _PERIOD, _PERIOD)
-        ways.append((ways[-1][0] + x * _PERIOD, ways[-1][1] + y * _PERIOD))
-    return np.array(ways)
+        travel.append((travel[-1][0] + x * _PERIOD, travel[-1][1] + y * _PERIOD))
+    return np.array(travel)

@@ -1,18 +1,17 @@
 """Settings of the plant, and the profiles that bundle them."""
 
 from push_sim.settings.plant_settings import (
-    ENGINES,
+    ENGINE_NAMES,
     PERIOD,
-    PROFILES,
     PerturbationSettings,
     SensorSettings,
     SimSettings,
     WorldSettings,
-    profile,
 )
+from push_sim.settings.profiles import PROFILES, profile
 
 __all__ = [
-    'ENGINES',
+    'ENGINE_NAMES',
     'PERIOD',
     'PROFILES',
     'PerturbationSettings',

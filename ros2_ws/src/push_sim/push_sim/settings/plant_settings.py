@@ -5,7 +5,7 @@ friction on the table and on the tip belongs to the world: the controller learns
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from push_core.common import InputError, nested, setting, validate
 from push_core.physics import ACTUATORS, ActuatorSettings
@@ -14,7 +14,7 @@ PERIOD = 0.01
 """Time [s] from one exposure to the next; commands are answered as often."""
 
 
-ENGINES = ('bullet', 'quasi_static')
+ENGINE_NAMES = ('bullet', 'quasi_static')
 """What can move the bodies."""
 
 
@@ -29,7 +29,7 @@ class WorldSettings:
     engine: str = setting(
         'bullet',
         'physics; quasi_static: the motion cone of an ellipsoid, no inertia',
-        choices=ENGINES,
+        choices=ENGINE_NAMES,
     )
     substep: float = setting(
         0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
@@ -149,37 +149,3 @@ class SimSettings:
 
     def __post_init__(self) -> None:
         validate(self)
-
-
-PROFILES = {
-    'irb120': SimSettings(),
-    'ideal': replace(
-        SimSettings(),
-        actuator=ACTUATORS['ideal'],
-        sensor=SensorSettings(position_noise=0.0, angle_noise=0.0, latency=0.0),
-    ),
-    'harsh': replace(
-        SimSettings(),
-        world=WorldSettings(friction_variation=0.1, friction_anisotropy=1.1, mass_error=0.1),
-        sensor=SensorSettings(
-            position_noise=0.3e-3,
-            angle_noise=math.radians(0.1),
-            latency=0.01,
-            jitter=0.005,
-            dropout=0.02,
-            freeze_rate=0.1,
-        ),
-        command_loss=0.01,
-    ),
-}
-
-
-def profile(name: str) -> SimSettings:
-    """The settings of a named profile.
-
-    Raises:
-        InputError: there is no such profile.
-    """
-    if name not in PROFILES:
-        raise InputError(f'parameter profile is {name!r}, must be one of {", ".join(PROFILES)}')
-    return PROFILES[name]

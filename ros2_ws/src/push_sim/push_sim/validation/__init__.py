@@ -1,7 +1,16 @@
-"""The plant beside measurements: errors, tables, pages."""
+"""Comparison of the plant with measurements: figures, table, page."""
 
-from push_sim.validation.as_json import as_json
-from push_sim.validation.as_table import validation_table
-from push_sim.validation.comparison import Validation, validation
+from push_sim.validation.comparison import Validation, compare_with_measurements
+from push_sim.validation.output import (
+    validation_json,
+    validation_table,
+    write_validation_page,
+)
 
-__all__ = ['Validation', 'as_json', 'validation', 'validation_table']
+__all__ = [
+    'Validation',
+    'compare_with_measurements',
+    'validation_json',
+    'validation_table',
+    'write_validation_page',
+]

@@ -1,4 +1,4 @@
-"""The simulator against measured pushes and runs, side by side with the ellipsoid."""
+"""Compares the simulator, and a fitted ellipsoid, with measured pushes and robot runs."""
 
 from dataclasses import dataclass
 
@@ -8,15 +8,31 @@ from push_core.geometry import Array
 from push_core.physics import ActuatorSettings, Slider
 from tqdm import tqdm
 
-from push_sim.fitting import fitted_actuator
-from push_sim.measured import Bar, MeasuredData, Replay, RobotRun, Windows, commanded_tip, windows
-from push_sim.settings import SimSettings
-from push_sim.validation.ellipsoid import ELLIPSOID
+from push_sim.fitting import fit_actuator
+from push_sim.measured import (
+    MeasuredData,
+    ProgressBar,
+    Replay,
+    RobotRun,
+    Windows,
+    cut_windows,
+    modelled_tip,
+)
+from push_sim.settings import SimSettings, WorldSettings
+
+ELLIPSOID = WorldSettings(engine='quasi_static', friction_pusher=0.229, support_radius=0.0348)
+"""The integrated motion cone with the two parameters that fit the measured 4 mm pushes best."""
 
 
 @dataclass(frozen=True)
 class ShortComparison:
-    """Short pushes: what was measured and what was predicted, (n, 3) [m, m, rad] each."""
+    """Short pushes.
+
+    Attributes:
+        pushes: measured pushes.
+        simulated: (n, 3) displacements of the simulator [m, m, rad].
+        ellipsoid: (n, 3) displacements of the ellipsoid [m, m, rad].
+    """
 
     pushes: PushSet
     simulated: Array
@@ -24,24 +40,24 @@ class ShortComparison:
 
     @property
     def accuracy(self) -> Accuracy:
-        """Of the simulator."""
+        """Accuracy of the simulator."""
         return accuracy(self.simulated, self.pushes)
 
     @property
     def ellipsoid_accuracy(self) -> Accuracy:
-        """Of the ellipsoid."""
+        """Accuracy of the ellipsoid."""
         return accuracy(self.ellipsoid, self.pushes)
 
 
 @dataclass(frozen=True)
 class LongComparison:
-    """Long pushes of one file: predicted end poses (n, 3) [m, m, rad].
+    """Long pushes of one file.
 
     Attributes:
-        file: name of the file.
-        pushes: as measured.
-        simulated: by the simulator.
-        ellipsoid: by the ellipsoid.
+        file: file name.
+        pushes: measured pushes.
+        simulated: (n, 3) end poses of the simulator [m, m, rad].
+        ellipsoid: (n, 3) end poses of the ellipsoid [m, m, rad].
     """
 
     file: str
@@ -55,13 +71,13 @@ class RunComparison:
     """One robot run.
 
     Attributes:
-        run: as measured.
-        actuator: the model of the profile.
-        identified: the same with the dead time and lag that suit this run best.
-        tip: (n, 2) commanded tip through the model of the profile [m].
-        windows: of half a second.
+        run: measured run of n rows.
+        actuator: actuator of the profile.
+        identified: the same with the dead time and lag fitted to this run.
+        tip: (n, 2) commanded tip through the actuator of the profile [m].
+        windows: m windows of half a second.
         simulated: (m, 3) end poses of the windows by the simulator [m, m, rad].
-        ellipsoid: (m, 3) the same by the ellipsoid.
+        ellipsoid: (m, 3) end poses by the ellipsoid [m, m, rad].
     """
 
     run: RobotRun
@@ -75,7 +91,14 @@ class RunComparison:
 
 @dataclass(frozen=True)
 class Validation:
-    """Everything that was compared; a part is empty where there were no files."""
+    """All comparisons; a part is None or empty if there are no such files.
+
+    Attributes:
+        short: short pushes of all files together.
+        long: long pushes, one for each file.
+        runs: robot runs.
+        missing: file patterns without a file.
+    """
 
     short: ShortComparison | None
     long: tuple[LongComparison, ...]
@@ -83,21 +106,21 @@ class Validation:
     missing: tuple[str, ...]
 
 
-def validation(
+def compare_with_measurements(
     data: MeasuredData, settings: SimSettings, slider: Slider, run_in: Map
 ) -> Validation:
-    """Makes everything again; shows a bar.
+    """Simulates all measurements with both models; shows a progress bar.
 
     Args:
-        data: what was measured.
-        settings: of the plant; its world and actuator count.
-        slider: what was pushed.
-        run_in: the processes.
+        data: measurements.
+        settings: plant; only its world and actuator are used.
+        slider: nominal slider.
+        run_in: maps a function over tasks, in processes.
     """
-    cuts = [windows(run) for run in data.runs]
+    cuts = [cut_windows(run) for run in data.runs]
     pushes = [data.short or (), *data.long.values(), *(cut.start for cut in cuts)]
-    bar: Bar
-    # each in both worlds
+    bar: ProgressBar
+    # once with the simulator, once with the ellipsoid
     with tqdm(
         total=2 * sum(map(len, pushes)), desc='replaying', unit=' pushes', disable=None
     ) as bar:
@@ -125,8 +148,8 @@ def _run(replay: Replay, settings: SimSettings, run: RobotRun, cut: Windows) -> 
     return RunComparison(
         run,
         settings.actuator,
-        fitted_actuator(run, settings.actuator).settings,
-        commanded_tip(run, settings.actuator),
+        fit_actuator(run, settings.actuator).settings,
+        modelled_tip(run, settings.actuator),
         cut,
         simulated,
         ellipsoid,

@@ -1,17 +1,15 @@
-"""Pictures of pushes: predicted against measured, and where they end."""
-
-import math
+"""Figures of pushes: predicted against measured motion, and end poses."""
 
 import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_core.data import READABLE, in_push_frame
-from push_core.geometry import Array
+from push_core.geometry import Array, points_to_body, wrap_angles
 from push_report.page import COLOURS
 
 from push_sim.validation.comparison import LongComparison, ShortComparison
 
-_TITLES = ('along the push [mm]', 'across [mm]', 'turn [deg]')
+_TITLES = ('along the push [mm]', 'across [mm]', 'rotation [deg]')
 _SERIES = (('simulator', COLOURS[0]), ('ellipsoid', COLOURS[1]))
 _PANELS = {'horizontal_spacing': 0.08}
 _HEIGHT = 600
@@ -19,7 +17,7 @@ LEGEND = {'orientation': 'h', 'y': -0.22, 'yanchor': 'top', 'itemsizing': 'const
 
 
 def short_figure(compared: ShortComparison) -> go.Figure:
-    """Short pushes in the push frame, predicted against measured, one panel an output."""
+    """Short pushes in the push frame, predicted against measured, one panel for each output."""
     beta = compared.pushes.beta
     measured = in_push_frame(compared.pushes.displacement, beta) / READABLE
     predicted = [in_push_frame(each, beta) / READABLE for each in _both(compared)]
@@ -35,14 +33,14 @@ def short_figure(compared: ShortComparison) -> go.Figure:
 
 
 def long_figure(compared: LongComparison) -> go.Figure:
-    """Long pushes on the face: from each measured end an arrow to the simulated one; the turns."""
+    """Long pushes on the face: lines from measured to simulated ends, and the rotations."""
     pushes = compared.pushes
     chosen = np.flatnonzero(pushes.on_face)
     measured, *predicted = (
-        _seen_from_start(pushes.start[chosen], end[chosen])
+        _in_start_frame(pushes.start[chosen], end[chosen])
         for end in (pushes.end, *_both(compared))
     )
-    titles = ('ends seen from the start, x away from the face [mm]', 'turn [deg]')
+    titles = ('ends in the start frame, x away from the face [mm]', 'rotation [deg]')
     figure = make_subplots(1, 2, subplot_titles=titles, column_widths=[0.6, 0.4], **_PANELS)
     _arrows(figure, measured, predicted[0])
     for each, (name, colour) in zip(predicted, _SERIES, strict=True):
@@ -60,13 +58,11 @@ def _both(compared: ShortComparison | LongComparison) -> tuple[Array, Array]:
     return compared.simulated, compared.ellipsoid
 
 
-def _seen_from_start(start: Array, end: Array) -> Array:
-    """(n, 3) x, y [mm] and turn [deg] of end poses (n, 3) in the frames of start poses (n, 3)."""
-    cos, sin = np.cos(start[:, 2]), np.sin(start[:, 2])
-    x, y, turn = (end - start).T
-    turn = np.remainder(turn + math.pi, math.tau) - math.pi
-    moved = np.column_stack((cos * x + sin * y, cos * y - sin * x, turn))
-    return np.asarray(moved / READABLE)
+def _in_start_frame(start: Array, end: Array) -> Array:
+    """(n, 3) x, y [mm] and rotation [deg] of end poses (n, 3) in the start frames (n, 3)."""
+    moved = points_to_body(start, end[:, :2])
+    turned = wrap_angles(end[:, 2] - start[:, 2])
+    return np.asarray(np.column_stack((moved, turned)) / READABLE)
 
 
 def _dots(
@@ -99,7 +95,7 @@ def _diagonal(figure: go.Figure, column: int, measured: Array) -> None:
 
 
 def _arrows(figure: go.Figure, measured: Array, simulated: Array) -> None:
-    """Lines from measured to simulated ends, a dot at the measured one."""
+    """Lines from measured to simulated ends, with a dot at the measured one."""
     gaps = np.full(len(measured), np.nan)
     x = np.column_stack((measured[:, 0], simulated[:, 0], gaps)).ravel()
     y = np.column_stack((measured[:, 1], simulated[:, 1], gaps)).ravel()

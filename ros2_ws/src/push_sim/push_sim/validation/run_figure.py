@@ -1,4 +1,4 @@
-"""Pictures of a robot run: the tip as commanded, modelled and sensed, and the object's windows."""
+"""Figure of a robot run: commanded, modelled and sensed tip, and the simulated windows."""
 
 import numpy as np
 import plotly.graph_objects as go
@@ -9,7 +9,7 @@ from push_report.page import COLOURS
 from push_sim.validation.comparison import RunComparison
 from push_sim.validation.push_figures import LEGEND
 
-_TITLES = ('across the table', 'from the sensed tip to the model', 'the object')
+_TITLES = ('tip on the table', 'modelled minus sensed tip', 'object')
 _MOST_POINTS = 2000
 _LEAST_RANGE = 1.0
 _HEIGHT = 680
@@ -17,11 +17,12 @@ _GREY = '#9aa5b1'
 
 
 def run_figure(compared: RunComparison) -> go.Figure:
-    """Traces of the tip, the model's error over time, and the object in windows of 0.5 s."""
+    """Paths of the tip, error of the actuator model over time, and the object in its windows."""
     run, following = compared.run, compared.run.following
     figure = make_subplots(2, 2, specs=[[{}, {}], [{'colspan': 2}, None]], subplot_titles=_TITLES)
     time, commanded, sensed, tip = (
-        _thinned(each[:following]) for each in (run.time, run.commanded, run.sensed, compared.tip)
+        _subsampled(each[:following])
+        for each in (run.time, run.commanded, run.sensed, compared.tip)
     )
     for points, name, colour in (
         (commanded, 'commanded', _GREY),
@@ -44,13 +45,13 @@ def run_figure(compared: RunComparison) -> go.Figure:
 
 
 def _range(values: Array) -> list[float]:
-    """The range of an axis that does not blow up a straight line."""
+    """Axis range of at least about a millimetre, so that a straight line looks straight."""
     middle = 0.5 * float(values.min() + values.max())
     half = 0.6 * max(float(np.ptp(values)), _LEAST_RANGE)
     return [middle - half, middle + half]
 
 
-def _thinned(values: Array) -> Array:
+def _subsampled(values: Array) -> Array:
     step = max(1, -(-len(values) // _MOST_POINTS))
     return values[::step]
 
@@ -63,7 +64,7 @@ def _path(figure: go.Figure, points: Array, name: str, colour: str) -> None:
 
 def _object(figure: go.Figure, compared: RunComparison) -> None:
     """The measured path, and from the start of each window a line to its simulated end."""
-    x, y = (_thinned(compared.run.object_pose)[:, :2] * 1e3).astype(np.float32).T
+    x, y = (_subsampled(compared.run.object_pose)[:, :2] * 1e3).astype(np.float32).T
     measured = go.Scatter(x=x, y=y, mode='lines', name='measured object', line={'color': 'black'})
     figure.add_trace(measured, row=2, col=1)
     starts, ends = compared.windows.start[:, :2] * 1e3, compared.simulated[:, :2] * 1e3

@@ -16,7 +16,7 @@ from collections.abc import Sequence
 from push_core.physics import GRAVITY, Pair, Slider
 
 from push_sim.settings import WorldSettings
-from push_sim.worlds.bullet.bullet import pybullet
+from push_sim.worlds.bullet.silent_pybullet import pybullet
 
 HALF_HEIGHT = 0.0065
 """Height [m] of the slider's and of the tip's centre."""

@@ -17,7 +17,7 @@ from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.impact import DEEPEST
 from push_sim.worlds.bullet.scene import BulletScene
 from push_sim.worlds.bullet.snapshot import BulletSnapshot
-from push_sim.worlds.bullet.symmetry import PLAIN, Symmetry, symmetry
+from push_sim.worlds.bullet.symmetry import IDENTITY, Symmetry
 from push_sim.worlds.common import Axes, Outline, Pose
 
 _FOLLOW_TIME = 0.01
@@ -51,7 +51,7 @@ class BulletWorld:
         self._impulse: Pair | None = None
         self._knocked_steps = 0
         self._scene.forget_contacts()
-        self._put_down((x, y, theta), tip, PLAIN)
+        self._put_down((x, y, theta), tip, IDENTITY)
         self._aligned = self._one_sided
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
@@ -73,7 +73,7 @@ class BulletWorld:
                 self._scene.rub(self._axes)
             inside = self._axes.vector_inside(velocity)
             if self._may_hit(velocity):
-                self._scene.step_to_touch(inside)
+                self._scene.step_cut_at_contact(inside)
             else:
                 self._scene.step(inside)
 
@@ -163,7 +163,7 @@ class BulletWorld:
         """Sees the push that begins from its face and half."""
         x, y, theta = self.object_pose.tolist()
         tip = self._axes.point_outside(self._scene.tip)
-        seen = symmetry((x, y, theta), tip, velocity)
+        seen = Symmetry.of_push((x, y, theta), tip, velocity)
         self._put_down(self._outline.touched((x, y, theta), tip), tip, seen)
         self._aligned = True
 

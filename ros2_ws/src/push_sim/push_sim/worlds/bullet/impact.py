@@ -1,7 +1,7 @@
-"""When in a time step a fast tip meets the square.
+"""Finds when a fast tip meets the square within a time step.
 
-PyBullet sees a contact only once the two overlap, so that a tip at half a metre a second would be
-half a millimetre deep before it is felt. A step that would do so is cut in two at the touch.
+PyBullet detects a contact only once two bodies overlap: a tip at 0.5 m/s would penetrate by half
+a millimetre first. The scene cuts such a step in two at the first contact.
 """
 
 from push_core.physics import Pair
@@ -9,19 +9,25 @@ from push_core.physics import Pair
 from push_sim.worlds.common import Outline
 
 DEEPEST = 1e-4
-"""How deep [m] the tip may go before it is felt."""
+"""Penetration [m] that a step may cause without being cut."""
 
-_TOUCHING = 1e-7
+_IN_CONTACT = 1e-7
 _OVERLAP = 5e-6
 _BISECTIONS = 20
 
 
-def part_until_touch(outline: Outline, start: Pair, end: Pair) -> float:
-    """Part of a step after which the tip, at body-frame points (2,) [m] before and after, touches.
+def fraction_until_contact(outline: Outline, start: Pair, end: Pair) -> float:
+    """Fraction of a step after which the tip is in contact.
 
-    1 where it does not get deep, or was in touch before.
+    Args:
+        outline: of the square.
+        start: body-frame position of the tip before the step [m].
+        end: body-frame position of the tip after it [m].
+
+    Returns:
+        1 if the tip does not penetrate deeply, or was in contact before.
     """
-    if outline.gap(*end) > -0.5 * DEEPEST or outline.gap(*start) < -_TOUCHING:
+    if outline.gap(*end) > -0.5 * DEEPEST or outline.gap(*start) < -_IN_CONTACT:
         return 1.0
     low, high = 0.0, 1.0
     for _ in range(_BISECTIONS):

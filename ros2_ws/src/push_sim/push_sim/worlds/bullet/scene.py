@@ -5,8 +5,8 @@ from push_core.physics import GRAVITY, Pair, Slider
 
 from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bodies import HALF_HEIGHT, make_object, make_tip, resting_height
-from push_sim.worlds.bullet.bullet import pybullet
-from push_sim.worlds.bullet.impact import part_until_touch
+from push_sim.worlds.bullet.impact import fraction_until_contact
+from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.bullet.snapshot import put_server_state, server_state
 from push_sim.worlds.bullet.table import UnevenTable, make_table
 from push_sim.worlds.common import Axes, Outline, TableFriction, feet
@@ -111,10 +111,10 @@ class BulletScene:
         pybullet.resetBaseVelocity(self._tip, linear, _REST, self._client)
         pybullet.stepSimulation(self._client)
 
-    def step_to_touch(self, velocity: Pair) -> None:
+    def step_cut_at_contact(self, velocity: Pair) -> None:
         """A time step, cut in two where the tip meets the slider in it."""
         substep = self._settings.substep
-        part = self._part_until_touch(velocity, substep)
+        part = self._fraction_until_contact(velocity, substep)
         if part == 1.0:
             self.step(velocity)
             return
@@ -178,14 +178,14 @@ class BulletScene:
         # gravity takes this vertical speed from the tip in each step, so that it stays level
         self._lift = GRAVITY * substep
 
-    def _part_until_touch(self, velocity: Pair, substep: float) -> float:
+    def _fraction_until_contact(self, velocity: Pair, substep: float) -> float:
         slider, (x, y) = self.slider, self.tip
         (u, v, _), (_, _, turning) = pybullet.getBaseVelocity(self._object, self._client)
         later = Axes(
             slider.x + u * substep, slider.y + v * substep, slider.theta + turning * substep
         )
         end = (x + velocity[0] * substep, y + velocity[1] * substep)
-        return part_until_touch(
+        return fraction_until_contact(
             self._outline, slider.point_inside((x, y)), later.point_inside(end)
         )
 

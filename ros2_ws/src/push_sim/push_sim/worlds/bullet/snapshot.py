@@ -10,7 +10,7 @@ from pathlib import Path
 
 from push_core.physics import Pair
 
-from push_sim.worlds.bullet.bullet import pybullet
+from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.bullet.symmetry import Symmetry
 
 

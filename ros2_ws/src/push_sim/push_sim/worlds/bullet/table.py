@@ -11,7 +11,7 @@ from push_core.physics import Pair
 
 from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bodies import make_body
-from push_sim.worlds.bullet.bullet import pybullet
+from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.common import QUADRANTS, Axes, TableFriction
 
 _HALF = 0.5

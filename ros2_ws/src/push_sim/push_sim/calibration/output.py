@@ -1,0 +1,163 @@
+"""Output of `calibrate`: its JSON object, its table and its ROS parameter file."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from push_sim.calibration.calibration import FittedParameter, PlantCalibration
+from push_sim.validation import validation_json
+
+_NODE_PARAMETERS = {'sim_node': ('world', 'actuator'), 'mpc_node': ('actuator',)}
+"""Parameter groups of each node; the controller predicts with the plant's actuator."""
+
+
+@dataclass(frozen=True)
+class Requirement:
+    """A limit on a figure of the plant.
+
+    Attributes:
+        name: name of the figure.
+        limit: largest acceptable value.
+        fitted: value on the part that was fitted; None without such measurements.
+        kept: value on the rest; None without such measurements.
+    """
+
+    name: str
+    limit: float
+    fitted: float | None
+    kept: float | None
+
+
+def calibration_json(result: PlantCalibration, seed: int, data_hash: str) -> dict[str, Any]:
+    """The JSON object.
+
+    Args:
+        result: of the calibration.
+        seed: seed of the split and of the bootstrap.
+        data_hash: SHA-256 of the measurements.
+    """
+    fitted, kept = validation_json(result.fitted), validation_json(result.kept)
+    return {
+        'seed': seed,
+        'data_sha256': data_hash,
+        'parameters': {
+            each.name: {
+                'value': each.value,
+                'deviation': each.deviation,
+                'unit': each.unit,
+                'before': each.before,
+            }
+            for each in result.parameters
+        },
+        'stiffness': _stiffness_json(result),
+        'bars': [asdict(each) for each in _requirements(fitted, kept)],
+        'fitted': fitted,
+        'kept': kept,
+    }
+
+
+def _requirements(fitted: dict[str, Any], kept: dict[str, Any]) -> Iterator[Requirement]:
+    """The required figures on both parts; of several files the worst."""
+    parts = fitted, kept
+    yield Requirement('4 mm pushes, mean NMSE in the push frame', 0.070, *map(_short_nmse, parts))
+    for unit, limit in (('mm', 3.8), ('deg', 4.3)):
+        values = (_long_error(part, f'mean_{unit}') for part in parts)
+        yield Requirement(f'50 mm pushes on the face [{unit}]', limit, *values)
+
+
+def _short_nmse(figures: dict[str, Any]) -> float | None:
+    short = figures['pushes_4mm']
+    return short['nmse_push_frame']['mean'] if short else None
+
+
+def _long_error(figures: dict[str, Any], name: str) -> float | None:
+    values = [each['on_face'][name] for each in figures['pushes_50mm']]
+    return max((value for value in values if value is not None), default=None)
+
+
+def _stiffness_json(result: PlantCalibration) -> dict[str, Any] | None:
+    """Sensitivity of the misfit to the stiffness of the feet, which is not fitted."""
+    if result.world is None:
+        return None
+    return {
+        'value': result.settings.world.stiffness,
+        'effect_on_misfit': result.world.stiffness_effect,
+        'misfit': result.world.misfit,
+        'misfit_deviation': result.world.misfit_deviation,
+        'carried': result.world.stiffness_effect > result.world.misfit_deviation,
+    }
+
+
+def calibration_table(figures: Mapping[str, Any]) -> str:
+    """The figures of `calibration_json` as text."""
+    lines = [
+        f'{"parameter":30}{"fitted":>10}{"deviation":>12}{"before":>10}',
+        *(_parameter_row(name, each) for name, each in figures['parameters'].items()),
+        *_stiffness_rows(figures['stiffness']),
+        '',
+        f'{"":44}{"fitted part":>12}{"the rest":>10}{"at most":>10}',
+        *map(_requirement_row, figures['bars']),
+        '',
+        'tip of the fitted run and of the others, rms of a coordinate [mm]',
+        *(_run_row(each) for part in ('fitted', 'kept') for each in figures[part]['robot_runs']),
+    ]
+    return '\n'.join(lines) + '\n'
+
+
+def _parameter_row(name: str, each: Mapping[str, Any]) -> str:
+    value, deviation, before = each['value'], each['deviation'], each['before']
+    return f'{name:30}{value:10.5f}{deviation:12.2g}{before:10.5f} {each["unit"]}'.rstrip()
+
+
+def _stiffness_rows(stiffness: Mapping[str, Any] | None) -> Iterator[str]:
+    if stiffness is None:
+        return
+    verdict = 'identify' if stiffness['carried'] else 'do not identify'
+    yield (
+        f'world.stiffness stays {stiffness["value"]:g} N/m: the pushes {verdict} it; three times '
+        f'as stiff or as soft\n  changes the misfit of {stiffness["misfit"]:.4f} by '
+        f'{stiffness["effect_on_misfit"]:.4f}, its deviation over the choice of pushes is '
+        f'{stiffness["misfit_deviation"]:.4f}'
+    )
+
+
+def _requirement_row(each: Mapping[str, Any]) -> str:
+    values = f'{_number(each["fitted"]):>12}{_number(each["kept"]):>10}'
+    return f'{each["name"]:44}{values}{each["limit"]:10.3f}'
+
+
+def _run_row(run: Mapping[str, Any]) -> str:
+    return f'  {run["file"]:42}{run["tip_rms_mm"]:12.3f}'
+
+
+def _number(value: float | None) -> str:
+    return '-' if value is None else f'{value:.3f}'
+
+
+def ros_parameter_file(parameters: Sequence[FittedParameter], data_hash: str) -> str:
+    """Text of a parameter file for plant and controller.
+
+    Args:
+        parameters: fitted parameters.
+        data_hash: SHA-256 of the measurements.
+    """
+    head = (
+        '# Made by `ros2 run push_sim calibrate`; `cell --params FILE` uses it.\n'
+        '# After each value: its standard deviation.\n'
+        f'# measurements: SHA-256 {data_hash}\n'
+    )
+    blocks = (_node_block(node, groups, parameters) for node, groups in _NODE_PARAMETERS.items())
+    return head + ''.join(blocks)
+
+
+def _node_block(node: str, groups: Sequence[str], parameters: Sequence[FittedParameter]) -> str:
+    own = [each for each in parameters if each.name.split('.')[0] in groups]
+    if not own:
+        return ''
+    lines = ''.join(f'    {_parameter_line(each)}\n' for each in own)
+    return f'/**/{node}:\n  ros__parameters:\n{lines}'
+
+
+def _parameter_line(parameter: FittedParameter) -> str:
+    value = f'{parameter.name}: {parameter.value:.6f}'
+    return f'{value:34}# +- {parameter.deviation:.2g} {parameter.unit}'.rstrip()
