@@ -21,7 +21,7 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recorder',
     'push_bag.record.recording',
     'push_bag.repair.recover',
-    'push_bag.replay.interview',
+    'push_bag.replay.node_comparison',
     'push_gp.low_rank.folded_likelihood',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',

@@ -9,8 +9,8 @@ from plotly.offline import get_plotlyjs_version
 from push_bag.commands.score import main
 from push_bag.report.animation import animation_data
 from push_bag.report.report import REPORT_FILE, report_html, write_results
+from push_bag.report.reported_run import reported_runs
 from push_bag.report.timing_figure import timing_figure
-from push_bag.report.view import views
 from push_bag.run.horizons import Horizons
 from push_bag.run.run_reader import read_run
 from push_bag.score.score import score_series
@@ -61,7 +61,7 @@ def test_a_run_that_never_tracked_has_a_report_too(record):
 
 def test_a_panel_without_measurements_says_so_in_its_own_place(record):
     run = read_run(record(facts={'mode': 'inprocess'}))
-    figure = timing_figure(views([(run, score_series(run))]))
+    figure = timing_figure(reported_runs([(run, score_series(run))]))
     (words,) = [each for each in figure.layout.annotations if each.text == 'not measured']
     assert words.xref == 'x3 domain'
     assert 'x3' in {trace.xaxis for trace in figure.data}
@@ -103,7 +103,7 @@ def test_several_runs_share_one_page(record, perfect):
 
 def test_the_animation_shows_where_the_object_was(perfect):
     run = read_run(perfect)
-    (shown,) = views([(run, score_series(run))])
+    (shown,) = reported_runs([(run, score_series(run))])
     (frames,) = json.loads(animation_data([shown]))['runs']
     at = np.interp(frames['time'], shown.tracking.reference_time, shown.tracking.pose[:, 0] * 1e3)
     np.testing.assert_allclose(frames['x'], at, atol=0.6)
@@ -112,7 +112,7 @@ def test_the_animation_shows_where_the_object_was(perfect):
 
 def test_the_animation_shows_what_was_planned(perfect, paths):
     run = read_run(perfect)
-    (shown,) = views([(run, score_series(run))])
+    (shown,) = reported_runs([(run, score_series(run))])
     (frames,) = json.loads(animation_data([shown]))['runs']
     width = frames['horizon_points']
     for time, x, y in zip(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from push_core.common import InputError, Parser, run_command, write_atomically
 
 from push_bag.run import read_run
-from push_bag.score import Table, tick_table
+from push_bag.score import TickTable, tick_table
 
 EPILOG = """
 One row for each tick of the controller, in SI units, which the names of the columns end with; v_n
@@ -28,7 +28,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     return run_command(_parser(), _work, argv)
 
 
-def csv_bytes(table: Table) -> bytes:
+def csv_bytes(table: TickTable) -> bytes:
     """The table as CSV; every number comes back as it was."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator='\n')
@@ -38,7 +38,7 @@ def csv_bytes(table: Table) -> bytes:
     return text.getvalue().encode()
 
 
-def parquet_bytes(table: Table) -> bytes:
+def parquet_bytes(table: TickTable) -> bytes:
     """The table as Parquet.
 
     Raises:

@@ -14,7 +14,7 @@ from pathlib import Path
 from push_core.common import Parser, run_command
 from push_core.physics import Slider
 
-from push_bag.file import whole_bag
+from push_bag.file import atomic_bag
 from push_bag.robot_csv import messages, read_robot_run, topics
 
 EPILOG = """
@@ -46,7 +46,7 @@ def import_run(path: Path, folder: Path, slider: Slider) -> int:
     """
     run = read_robot_run(path)
     facts = {'mode': 'robot', 'profile': 'robot', 'imported_from': path.name}
-    with whole_bag(folder, facts, {}) as writer:
+    with atomic_bag(folder, facts, {}) as writer:
         for topic in topics():
             writer.add_topic(*topic)
         numbers = dict.fromkeys(writer.counts, 0)

@@ -11,7 +11,7 @@ from push_node.override_text import parsed_override
 from rclpy.signals import SignalHandlerOptions
 
 from push_bag.replay import Changes, Recomputed, recomputed
-from push_bag.replay.interview import interviewed
+from push_bag.replay.node_comparison import interviewed
 
 
 def add_recompute_arguments(parser: Parser) -> None:

@@ -1,5 +1,6 @@
 """The bag format: MCAP records, message types, CDR, QoS and metadata."""
 
+from push_bag.file.atomic_bag import atomic_bag
 from push_bag.file.bag_contents import BagContents
 from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
 from push_bag.file.cdr_columns import Columns, columns
@@ -23,7 +24,6 @@ from push_bag.file.qos_text import qos_profile, qos_text
 from push_bag.file.reader import BagReader, Record, bag_file
 from push_bag.file.topic_registry import Topic
 from push_bag.file.traffic import Traffic, lost_text
-from push_bag.file.whole_bag import whole_bag
 
 __all__ = [
     'COUNTS_RECORD',
@@ -40,6 +40,7 @@ __all__ = [
     'Record',
     'Topic',
     'Traffic',
+    'atomic_bag',
     'bag_file',
     'chunk_data',
     'chunk_records',
@@ -52,5 +53,4 @@ __all__ = [
     'qos_profile',
     'qos_text',
     'schema_text',
-    'whole_bag',
 ]

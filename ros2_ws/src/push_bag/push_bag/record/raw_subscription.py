@@ -13,7 +13,7 @@ from push_bag.file import message_class
 DEPTH = 1000  # messages that may wait between two polls
 
 
-class RawMessage(NamedTuple):
+class ReceivedMessage(NamedTuple):
     """One message as it came: bytes, times [ns] and the publisher's number of it."""
 
     data: bytes
@@ -69,13 +69,13 @@ class RawSubscription:
         with self._loss_event:
             return int(self._loss_event.take_event().total_count)
 
-    def take_all(self) -> Iterator[RawMessage]:
+    def take_all(self) -> Iterator[ReceivedMessage]:
         """All messages that have come since the last call, oldest first."""
         handle = self._subscription.handle
         with handle:
             while (taken := handle.take_message(self._type, True)) is not None:
                 data, about = taken
-                yield RawMessage(
+                yield ReceivedMessage(
                     data,
                     about['received_timestamp'],
                     about['source_timestamp'],

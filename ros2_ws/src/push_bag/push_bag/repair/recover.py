@@ -19,11 +19,11 @@ from push_bag.file import (
     RawMessage,
     RawRecord,
     Topic,
+    atomic_bag,
     bag_file,
     chunk_records,
     message,
     qos_profile,
-    whole_bag,
 )
 from push_bag.repair.recovered import Recovered
 from push_bag.repair.salvage import Damage, WholeChunk, whole_parts
@@ -60,7 +60,7 @@ def recover(broken: Path, folder: Path) -> Recovered:
         if not contents.topics:
             raise InputError(f'{path} holds nothing that could be recovered')
         facts = {**contents.facts, 'recovered_from': path.name, 'recovered_bag': _state(contents)}
-        with whole_bag(folder, facts, contents.attachments) as writer:
+        with atomic_bag(folder, facts, contents.attachments) as writer:
             found = _copied(file, contents, writer)
             if contents.counts:
                 writer.note(COUNTS_RECORD, contents.counts)

@@ -1,7 +1,7 @@
-"""The square, the tip and the planned horizon as they moved, for the report's animation.
+"""The report's animation of the square, the tip and the planned horizon.
 
-The figure holds the still part and empty traces; `report.js` moves them along the data written
-here, which is thinned to FRAMES_PER_SECOND and in tenths of a millimetre.
+The figure holds the reference and empty traces, which `report.js` fills from the data written
+here: FRAMES_PER_SECOND frames per second, rounded to tenths of a millimetre.
 """
 
 import json
@@ -13,50 +13,49 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 from push_report.figure_style import GREY, INK, ORANGE, styled, thinned
 
-from push_bag.report.view import View
+from push_bag.report.reported_run import ReportedRun
 from push_bag.run import Floats, Horizons
 
 FRAMES_PER_SECOND = 25.0
 MOST_FRAMES = 4000
 HEIGHT = 620
-MARGIN = 80.0  # [mm] round the reference, so that the whole square is seen
-PARTS = ('trail', 'object', 'horizon', 'pusher')
+MARGIN = 80.0  # [mm] round the reference; the square reaches out 64 mm
 
 
-def animation_figure(views: Sequence[View]) -> go.Figure:
-    """References, and for each run the traces of PARTS, which `report.js` fills."""
+def animation_figure(runs: Sequence[ReportedRun]) -> go.Figure:
+    """The references, and for each run four empty traces that `report.js` fills."""
     figure = go.Figure()
-    for view in views:
-        figure.add_trace(_reference(view))
-    for view in views:
-        for trace in _moving(view, alone=len(views) == 1):
+    for run in runs:
+        figure.add_trace(_reference(run))
+    for run in runs:
+        for trace in _moving(run, alone=len(runs) == 1):
             figure.add_trace(trace)
     styled(figure, HEIGHT, hovermode=False)
-    x, y = _span(views)
+    x, y = _span(runs)
     figure.update_xaxes(title='x [mm]', range=x)
     return figure.update_yaxes(title='y [mm]', range=y, scaleanchor='x', scaleratio=1.0)
 
 
-def animation_data(views: Sequence[View]) -> str:
-    """What `report.js` moves the traces along, as JSON."""
+def animation_data(runs: Sequence[ReportedRun]) -> str:
+    """The frames of all runs for `report.js`, as JSON."""
     data = {
-        'first_trace': len(views),
-        'duration': max(view.reference.duration for view in views),
-        'runs': [_frames(view) for view in views],
+        'first_trace': len(runs),
+        'duration': max(run.reference.duration for run in runs),
+        'runs': [_frames(run) for run in runs],
     }
     return json.dumps(data, separators=(',', ':'))
 
 
-def _reference(view: View) -> go.Scatter:
-    x, y = thinned(view.reference.pose[:, 0] * 1e3, view.reference.pose[:, 1] * 1e3)
+def _reference(run: ReportedRun) -> go.Scatter:
+    x, y = thinned(run.reference.pose[:, 0] * 1e3, run.reference.pose[:, 1] * 1e3)
     line = {'color': INK, 'width': 1.2, 'dash': 'dot'}
     return go.Scatter(x=x, y=y, mode='lines', name='reference', line=line, showlegend=False)
 
 
-def _moving(view: View, alone: bool) -> list[go.Scatter]:
+def _moving(run: ReportedRun, alone: bool) -> list[go.Scatter]:
     styles: dict[str, dict[str, Any]] = {
         'trail': {'line': {'color': GREY, 'width': 1.5}},
-        'object': {'line': {'color': view.colour, 'width': 2}, 'fill': 'toself'},
+        'object': {'line': {'color': run.colour, 'width': 2}, 'fill': 'toself'},
         'horizon': {'line': {'color': ORANGE, 'width': 4}},
         'pusher': {'line': {'color': INK, 'width': 1.5}, 'fill': 'toself', 'fillcolor': INK},
     }
@@ -65,7 +64,7 @@ def _moving(view: View, alone: bool) -> list[go.Scatter]:
             x=[],
             y=[],
             mode='lines',
-            name=part if alone else view.name,
+            name=part if alone else run.name,
             showlegend=alone or part == 'object',
             **style,
         )
@@ -73,19 +72,19 @@ def _moving(view: View, alone: bool) -> list[go.Scatter]:
     ]
 
 
-def _span(views: Sequence[View]) -> tuple[list[float], list[float]]:
-    points = np.concatenate([view.reference.pose[:, :2] for view in views]) * 1e3
+def _span(runs: Sequence[ReportedRun]) -> tuple[list[float], list[float]]:
+    points = np.concatenate([run.reference.pose[:, :2] for run in runs]) * 1e3
     low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
     return [float(low[0]), float(high[0])], [float(low[1]), float(high[1])]
 
 
-def _frames(view: View) -> dict[str, Any]:
-    tracking, reference = view.tracking, view.reference
+def _frames(run: ReportedRun) -> dict[str, Any]:
+    tracking, reference = run.tracking, run.reference
     chosen = _chosen(tracking.reference_time)
-    index, _ = view.run.pusher.at(tracking.stamp[chosen])
-    tip = view.run.pusher.values[index] * 1e3 if index.size else np.zeros((0, 2))
+    index, _ = run.series.pusher.at(tracking.stamp[chosen])
+    tip = run.series.pusher.values[index] * 1e3 if index.size else np.zeros((0, 2))
     pose = tracking.pose[chosen]
-    planned = Horizons.of(view.run.horizons).at(tracking.stamp[chosen]) * 1e3
+    planned = Horizons.of(run.series.horizons).at(tracking.stamp[chosen]) * 1e3
     return {
         'side': reference.side * 1e3,
         'tip_radius': reference.tip_radius * 1e3,
@@ -102,12 +101,12 @@ def _frames(view: View) -> dict[str, Any]:
 
 
 def _chosen(time: Floats) -> NDArray[np.intp]:
-    """The frames (m,) that are shown, evenly spaced in time."""
+    """Indices (m,) of the frames, evenly spaced in time."""
     if not time.size:
         return np.zeros(0, np.intp)
     count = min(MOST_FRAMES, int((time[-1] - time[0]) * FRAMES_PER_SECOND) + 2)
-    wanted = np.linspace(time[0], time[-1], count)
-    return np.unique(np.minimum(np.searchsorted(time, wanted), time.size - 1))
+    instants = np.linspace(time[0], time[-1], count)
+    return np.unique(np.minimum(np.searchsorted(time, instants), time.size - 1))
 
 
 def _rounded(values: Floats, digits: int) -> list[float]:

@@ -1,6 +1,6 @@
-"""The lap to scale: reference, path coloured by its error, outlines of the square.
+"""The lap to scale: reference, path coloured by tracking error, outlines of the square.
 
-Several runs are drawn as one line each; their errors are then told by the figure over time.
+Several runs are drawn as one line each, without colour for the error.
 """
 
 from collections.abc import Sequence
@@ -9,20 +9,20 @@ import numpy as np
 import plotly.graph_objects as go
 from push_report.figure_style import GREY, INK, LOW_TO_HIGH, PALE, RED, styled, thinned
 
-from push_bag.report.view import View
-from push_bag.run import Disturbance, Floats, Reference
+from push_bag.report.reported_run import ReportedRun
+from push_bag.run import Floats, PerturbationEvent, Reference
 from push_bag.score import Tracking
 
 OUTLINES = 16
-LEAST_COLOUR_RANGE = 0.5  # [mm], so that a perfect lap does not show its noise
+LEAST_COLOUR_RANGE = 0.5  # [mm]; with less, a good lap would show its noise
 HEIGHT = 720
-MOST_MARKERS = 1500  # each is an element of the page, and takes as long to draw as ten of a line
+MOST_MARKERS = 1500  # a marker takes as long to draw as ten points of a line
 
 
-def lap_figure(views: Sequence[View]) -> go.Figure:
+def lap_figure(runs: Sequence[ReportedRun]) -> go.Figure:
     """The laps in the world frame, axes in millimetres at one scale."""
     figure = go.Figure()
-    traces = _alone(views[0]) if len(views) == 1 else _together(views)
+    traces = _alone(runs[0]) if len(runs) == 1 else _together(runs)
     for trace in traces:
         figure.add_trace(trace)
     styled(figure, HEIGHT, hovermode='closest')
@@ -31,35 +31,35 @@ def lap_figure(views: Sequence[View]) -> go.Figure:
     return figure
 
 
-def _alone(view: View) -> list[go.Scatter]:
+def _alone(run: ReportedRun) -> list[go.Scatter]:
     return [
-        _outlines(view.tracking, view.reference.side),
-        _reference(view.reference),
-        _path(view.tracking),
-        _start(view.reference),
-        _kicks(view.tracking, view.run.disturbances),
+        _outlines(run.tracking, run.reference.side),
+        _reference(run.reference),
+        _path(run.tracking),
+        _start(run.reference),
+        _perturbations(run.tracking, run.series.perturbations),
     ]
 
 
-def _together(views: Sequence[View]) -> list[go.Scatter]:
-    # runs of one report mostly share their track; the first one's is drawn
-    return [_reference(views[0].reference), *(_line(view) for view in views)]
+def _together(runs: Sequence[ReportedRun]) -> list[go.Scatter]:
+    # runs of one report mostly share the track, so only the first reference is drawn
+    return [_reference(runs[0].reference), *(_line(run) for run in runs)]
 
 
-def _line(view: View) -> go.Scatter:
+def _line(run: ReportedRun) -> go.Scatter:
     x, y, time = thinned(
-        view.tracking.pose[:, 0] * 1e3,
-        view.tracking.pose[:, 1] * 1e3,
-        view.tracking.reference_time,
+        run.tracking.pose[:, 0] * 1e3,
+        run.tracking.pose[:, 1] * 1e3,
+        run.tracking.reference_time,
     )
     return go.Scatter(
         x=x,
         y=y,
         mode='lines',
-        name=view.name,
+        name=run.name,
         customdata=time[:, None],
         hovertemplate='t = %{customdata[0]:.2f} s<extra></extra>',
-        line={'color': view.colour, 'width': 1.5},
+        line={'color': run.colour, 'width': 1.5},
     )
 
 
@@ -97,7 +97,7 @@ def _path(tracking: Tracking) -> go.Scatter:
 
 
 def _outlines(tracking: Tracking, side: float) -> go.Scatter:
-    """The square at some instants, as one line with gaps."""
+    """The square at OUTLINES instants, as one line with gaps."""
     count = min(OUTLINES, tracking.stamp.size)
     chosen = np.linspace(0, max(tracking.stamp.size - 1, 0), count).astype(np.intp)
     corners = [_corners(tracking.pose[index], side) for index in chosen]
@@ -113,7 +113,7 @@ def _outlines(tracking: Tracking, side: float) -> go.Scatter:
 
 
 def _corners(pose: Floats, side: float) -> Floats:
-    """Closed outline (6, 2) [m] of the square at a pose (3,), ending in a gap."""
+    """Closed outline (6, 2) [m] of the square at a pose (3,); the last row is NaN, a gap."""
     half = side / 2.0
     square = np.array([[-half, -half], [half, -half], [half, half], [-half, half], [-half, -half]])
     cos, sin = np.cos(pose[2]), np.sin(pose[2])
@@ -136,8 +136,8 @@ def _start(reference: Reference) -> go.Scatter:
     )
 
 
-def _kicks(tracking: Tracking, disturbances: tuple[Disturbance, ...]) -> go.Scatter:
-    stamps = np.array([each.stamp for each in disturbances], np.int64)
+def _perturbations(tracking: Tracking, perturbations: tuple[PerturbationEvent, ...]) -> go.Scatter:
+    stamps = np.array([each.stamp for each in perturbations], np.int64)
     stamps = stamps[: stamps.size if tracking.stamp.size else 0]
     index = np.minimum(np.searchsorted(tracking.stamp, stamps), max(tracking.stamp.size - 1, 0))
     points = tracking.pose[index, :2] * 1e3

@@ -1,4 +1,4 @@
-"""The report of one run or of several: one HTML file that needs nothing else, also offline."""
+"""The report of one or several runs: one HTML file that works offline."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
@@ -12,9 +12,9 @@ from push_report.page import page, section
 
 from push_bag.report.animation import animation_data, animation_figure
 from push_bag.report.lap_figure import lap_figure
+from push_bag.report.reported_run import ReportedRun, Scored, reported_runs, title
 from push_bag.report.time_figure import time_figure
 from push_bag.report.timing_figure import timing_figure
-from push_bag.report.view import Scored, View, title, views
 from push_bag.run import read_run
 from push_bag.score import messages_line, score_rows, score_series
 
@@ -30,12 +30,12 @@ CONTROLS = """
 
 
 def write_results(folder: Path, reason: str = '') -> dict[str, Any]:
-    """Puts `score.json` and `report.html` into a run's folder and returns the score.
+    """Writes `score.json` and `report.html` to a run's folder and returns the score.
 
     Args:
         folder: of the run.
-        reason: why the cell ended it, empty if it came to its end. A recorder that died could
-            not write it down.
+        reason: why the cell ended the run early, empty if it did not; used where the bag does
+            not state a reason, as after the death of the recorder.
 
     Raises:
         InputError: there is no readable bag or no reference in it, or a file cannot be written.
@@ -49,49 +49,49 @@ def write_results(folder: Path, reason: str = '') -> dict[str, Any]:
 
 
 def report_html(scored: Sequence[Scored]) -> str:
-    """The report as one page.
+    """The report as one HTML page.
 
     Args:
-        scored: runs, each with its score; several are drawn over each other.
+        scored: runs, each with its score; several share each figure.
 
     Raises:
         InputError: a run holds no reference.
     """
-    shown = views(scored)
+    runs = reported_runs(scored)
     sections = [
-        section('The lap', deferred(lap_figure(shown), 'lap')),
-        section('In motion', CONTROLS + deferred(animation_figure(shown), 'animation')),
-        section('Over time', deferred(time_figure(shown), 'time')),
-        section('Timing', deferred(timing_figure(shown), 'timing')),
-        section('Score', _table(_names(shown), _score_rows(shown))),
-        section('Messages', _table(_names(shown), _message_rows(shown))),
-        section('Run facts', _table(_names(shown), _fact_rows(shown))),
+        section('The lap', deferred(lap_figure(runs), 'lap')),
+        section('In motion', CONTROLS + deferred(animation_figure(runs), 'animation')),
+        section('Over time', deferred(time_figure(runs), 'time')),
+        section('Timing', deferred(timing_figure(runs), 'timing')),
+        section('Score', _table(_names(runs), _score_rows(runs))),
+        section('Messages', _table(_names(runs), _message_rows(runs))),
+        section('Run facts', _table(_names(runs), _fact_rows(runs))),
     ]
-    head = _head_of_one(shown[0]) if len(shown) == 1 else _head_of_several(shown)
-    page_title = title(shown[0].score) if len(shown) == 1 else f'{len(shown)} runs'
-    return page(page_title, sections, head, _script(shown), drawing_library())
+    head = _head_of_one(runs[0]) if len(runs) == 1 else _head_of_several(runs)
+    page_title = title(runs[0].score) if len(runs) == 1 else f'{len(runs)} runs'
+    return page(page_title, sections, head, _script(runs), drawing_library())
 
 
-def _script(shown: Sequence[View]) -> str:
-    moving = files('push_bag.report').joinpath('report.js').read_text(encoding='utf-8')
-    return f'const ANIMATION = {animation_data(shown)};\n{drawing_script()}\n{moving}'
+def _script(runs: Sequence[ReportedRun]) -> str:
+    script = files('push_bag.report').joinpath('report.js').read_text(encoding='utf-8')
+    return f'const ANIMATION = {animation_data(runs)};\n{drawing_script()}\n{script}'
 
 
-def _head_of_one(view: View) -> str:
-    good = view.score['completed']
-    verdict = f'<span class="verdict {"yes" if good else "no"}">{_verdict(view.score)}</span>'
-    cards = ''.join(_card(name, value) for name, value in _headlines(view.score))
-    return f'<h1>{escape(title(view.score))} {verdict}</h1><div class="cards">{cards}</div>'
+def _head_of_one(run: ReportedRun) -> str:
+    good = run.score['completed']
+    verdict = f'<span class="verdict {"yes" if good else "no"}">{_verdict(run.score)}</span>'
+    cards = ''.join(_card(name, value) for name, value in _headlines(run.score))
+    return f'<h1>{escape(title(run.score))} {verdict}</h1><div class="cards">{cards}</div>'
 
 
-def _head_of_several(shown: Sequence[View]) -> str:
-    cards = ''.join(_card(view.name, _in_short(view), view.colour) for view in shown)
-    return f'<h1>{len(shown)} runs</h1><div class="cards">{cards}</div>'
+def _head_of_several(runs: Sequence[ReportedRun]) -> str:
+    cards = ''.join(_card(run.name, _in_short(run), run.colour) for run in runs)
+    return f'<h1>{len(runs)} runs</h1><div class="cards">{cards}</div>'
 
 
-def _in_short(view: View) -> str:
-    mean = _measure(view.score['tracking_error_mm']['mean'], 'mm')
-    return mean if view.score['completed'] else f'{mean}, {_verdict(view.score)}'
+def _in_short(run: ReportedRun) -> str:
+    mean = _measure(run.score['tracking_error_mm']['mean'], 'mm')
+    return mean if run.score['completed'] else f'{mean}, {_verdict(run.score)}'
 
 
 def _verdict(score: Mapping[str, Any]) -> str:
@@ -121,19 +121,19 @@ def _card(name: str, value: str, colour: str = '') -> str:
     return f'<div class="card"><b>{escape(value)}</b><span>{key}{escape(name)}</span></div>'
 
 
-def _names(shown: Sequence[View]) -> list[str]:
-    """Heads of the tables' columns; a run that is alone needs none."""
-    return [view.name for view in shown] if len(shown) > 1 else []
+def _names(runs: Sequence[ReportedRun]) -> list[str]:
+    """Heads of the tables' columns; none for one run."""
+    return [run.name for run in runs] if len(runs) > 1 else []
 
 
-def _score_rows(shown: Sequence[View]) -> list[list[str]]:
-    tables = [[*score_rows(view.score), ('messages', messages_line(view.score))] for view in shown]
+def _score_rows(runs: Sequence[ReportedRun]) -> list[list[str]]:
+    tables = [[*score_rows(run.score), ('messages', messages_line(run.score))] for run in runs]
     return [[rows[0][0], *(value for _, value in rows)] for rows in zip(*tables, strict=True)]
 
 
-def _message_rows(shown: Sequence[View]) -> list[list[str]]:
-    topics = sorted({topic for view in shown for topic in view.score['messages']})
-    return [[topic, *(_traffic(view.score, topic) for view in shown)] for topic in topics]
+def _message_rows(runs: Sequence[ReportedRun]) -> list[list[str]]:
+    topics = sorted({topic for run in runs for topic in run.score['messages']})
+    return [[topic, *(_traffic(run.score, topic) for run in runs)] for topic in topics]
 
 
 def _traffic(score: Mapping[str, Any], topic: str) -> str:
@@ -144,9 +144,9 @@ def _traffic(score: Mapping[str, Any], topic: str) -> str:
     return f'{counts["received"]} received, {lost} lost'
 
 
-def _fact_rows(shown: Sequence[View]) -> list[list[str]]:
-    names = sorted({name for view in shown for name in view.run.facts})
-    return [[name, *(view.run.facts.get(name, '–') for view in shown)] for name in names]
+def _fact_rows(runs: Sequence[ReportedRun]) -> list[list[str]]:
+    names = sorted({name for run in runs for name in run.series.facts})
+    return [[name, *(run.series.facts.get(name, '–') for run in runs)] for name in names]
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -1,4 +1,4 @@
-"""The runs over time: errors, contact and inputs on one linked axis."""
+"""Errors, contact and inputs over time, on one linked axis."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,13 +8,13 @@ import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 from push_report.figure_style import BLUE, GREEN, GREY, INK, ORANGE, RED, styled
 
-from push_bag.report.pen import Pen
-from push_bag.report.view import View
+from push_bag.report.reported_run import ReportedRun
+from push_bag.report.run_lines import RunLines
 from push_bag.score import loss_intervals, reference_times
 
 Shape = dict[str, Any]  # as plotly takes it
 
-# title of each row, and values that its axis shows in any case: noise shall look like noise
+# title of each row, and values that its axis always includes, so that noise looks small
 ROWS = (
     ('error [mm]', (0.0, 1.0)),
     ('heading error [deg]', (-1.0, 1.0)),
@@ -24,25 +24,25 @@ ROWS = (
     ('v_t [mm/s]', (-10.0, 10.0)),
 )
 CROSS_TRACK = 'cross-track error, left positive'
-# the axes' titles explain the other lines
+# the other lines are named by the titles of their axes
 LEGEND = ('tracking error', CROSS_TRACK, 'nominal', 'limited', 'no contact', 'perturbation')
-TIME_AXIS = f'x{len(ROWS)}'  # of the lowest row; all rows use it, so the cursor crosses them
+TIME_AXIS = f'x{len(ROWS)}'  # of the lowest row, for all rows: the cursor crosses them
 HEIGHT = 1100
 
 
-def time_figure(views: Sequence[View]) -> go.Figure:
-    """Errors, contact offset, gap and inputs over reference time, zooming together.
+def time_figure(runs: Sequence[ReportedRun]) -> go.Figure:
+    """Errors, contact offset, gap and inputs over reference time; all rows zoom together.
 
     The first shape of the layout is the time cursor, which `report.js` moves.
     """
     figure = make_subplots(len(ROWS), 1, shared_xaxes=True, vertical_spacing=0.025)
-    for view in views:
-        pen = Pen(figure, view, alone=len(views) == 1)
-        _add_errors(pen)
-        _add_contact(pen)
-        _add_inputs(pen)
-    _mark_events(figure, views)
-    _explain(figure, LEGEND if len(views) == 1 else [view.name for view in views])
+    for run in runs:
+        lines = RunLines(figure, run, alone=len(runs) == 1)
+        _add_errors(lines)
+        _add_contact(lines)
+        _add_inputs(lines)
+    _mark_events(figure, runs)
+    _limit_legend(figure, LEGEND if len(runs) == 1 else [run.name for run in runs])
     styled(figure, HEIGHT, hovermode='x unified')
     for row, (title, shown) in enumerate(ROWS, start=1):
         figure.update_yaxes(
@@ -53,38 +53,38 @@ def time_figure(views: Sequence[View]) -> go.Figure:
     return figure.update_xaxes(showspikes=True, spikemode='across', spikethickness=1)
 
 
-def _add_errors(pen: Pen) -> None:
-    tracking = pen.view.tracking
+def _add_errors(lines: RunLines) -> None:
+    tracking = lines.run.tracking
     time = tracking.reference_time
-    pen.line(1, 'tracking error', time, tracking.distance * 1e3, BLUE)
-    pen.detail(1, CROSS_TRACK, time, tracking.cross_track * 1e3, ORANGE)
-    pen.line(2, 'heading error', time, np.degrees(tracking.heading), GREEN)
+    lines.line(1, 'tracking error', time, tracking.distance * 1e3, BLUE)
+    lines.detail(1, CROSS_TRACK, time, tracking.cross_track * 1e3, ORANGE)
+    lines.line(2, 'heading error', time, np.degrees(tracking.heading), GREEN)
 
 
-def _add_contact(pen: Pen) -> None:
-    contact, reference = pen.view.contact, pen.view.reference
+def _add_contact(lines: RunLines) -> None:
+    contact, reference = lines.run.contact, lines.run.reference
     stamps = contact.stamp
-    time = reference_times(pen.view.run, stamps) if stamps.size else np.zeros(0)
-    pen.line(3, 'contact offset', time, contact.p_y * 1e3, BLUE)
-    pen.wanted(3, reference.time, reference.p_y * 1e3)
-    pen.line(4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
+    time = reference_times(lines.run.series, stamps) if stamps.size else np.zeros(0)
+    lines.line(3, 'contact offset', time, contact.p_y * 1e3, BLUE)
+    lines.nominal(3, reference.time, reference.p_y * 1e3)
+    lines.line(4, 'gap between tip and face', time, contact.gap * 1e3, BLUE)
 
 
-def _add_inputs(pen: Pen) -> None:
-    run = pen.view.run
+def _add_inputs(lines: RunLines) -> None:
+    run = lines.run.series
     ticks = run.following
     time = run.state('reference_time')[ticks]
     for row, name in ((5, 'v_n'), (6, 'v_t')):
-        pen.line(row, f'commanded {name}', time, run.state(name)[ticks] * 1e3, BLUE)
-        pen.wanted(row, time, run.state(f'nominal_{name}')[ticks] * 1e3)
+        lines.line(row, f'commanded {name}', time, run.state(name)[ticks] * 1e3, BLUE)
+        lines.nominal(row, time, run.state(f'nominal_{name}')[ticks] * 1e3)
     limited = run.state('limited')[ticks] > 0
-    pen.marks(5, 'limited', time[limited], run.state('v_n')[ticks][limited] * 1e3)
+    lines.marks(5, 'limited', time[limited], run.state('v_n')[ticks][limited] * 1e3)
 
 
-def _mark_events(figure: go.Figure, views: Sequence[View]) -> None:
-    bands = [shape for view in views for shape in _loss_bands(view)]
-    lines = [shape for view in views for shape in _disturbance_lines(view)]
-    # all at once: adding shapes one by one takes time quadratic in their number
+def _mark_events(figure: go.Figure, runs: Sequence[ReportedRun]) -> None:
+    bands = [shape for run in runs for shape in _loss_bands(run)]
+    lines = [shape for run in runs for shape in _perturbation_lines(run)]
+    # in one call: adding shapes one by one takes quadratic time
     cursor = _shape('line', 0.0, 0.0, INK) | {'layer': 'above'}
     figure.update_layout(shapes=[cursor, *bands, *lines])
     if bands:
@@ -93,21 +93,23 @@ def _mark_events(figure: go.Figure, views: Sequence[View]) -> None:
         _add_key(figure, 'perturbation', {'symbol': 'line-ns-open', 'color': RED, 'size': 10})
 
 
-def _loss_bands(view: View) -> list[Shape]:
-    """A grey band through all rows for each interval without contact."""
-    intervals = np.array(loss_intervals(view.contact), np.int64).reshape(-1, 2)
+def _loss_bands(run: ReportedRun) -> list[Shape]:
+    """A grey band across all rows for each interval without contact."""
+    intervals = np.array(loss_intervals(run.contact), np.int64).reshape(-1, 2)
     if not intervals.size:
         return []
-    times = reference_times(view.run, intervals.ravel()).reshape(-1, 2)
+    times = reference_times(run.series, intervals.ravel()).reshape(-1, 2)
     return [_shape('rect', start, end, GREY) for start, end in times.tolist()]
 
 
-def _disturbance_lines(view: View) -> list[Shape]:
-    """A red line through all rows for each perturbation."""
-    if not view.contact.stamp.size:
+def _perturbation_lines(run: ReportedRun) -> list[Shape]:
+    """A red line across all rows for each perturbation."""
+    if not run.contact.stamp.size:
         return []
-    stamps = np.array([each.stamp for each in view.run.disturbances], np.int64)
-    return [_shape('line', time, time, RED) for time in reference_times(view.run, stamps).tolist()]
+    stamps = np.array([each.stamp for each in run.series.perturbations], np.int64)
+    return [
+        _shape('line', time, time, RED) for time in reference_times(run.series, stamps).tolist()
+    ]
 
 
 def _shape(kind: str, start: float, end: float, colour: str) -> Shape:
@@ -127,13 +129,13 @@ def _shape(kind: str, start: float, end: float, colour: str) -> Shape:
 
 
 def _add_key(figure: go.Figure, name: str, marker: dict[str, object]) -> None:
-    """A trace without points, which gives a shape its place in the legend."""
+    """Adds a trace without points as the legend entry of a shape."""
     key = go.Scatter(x=[None], y=[None], mode='markers', name=name, marker=marker)
     figure.add_trace(key, row=1, col=1)
 
 
-def _explain(figure: go.Figure, names: Sequence[str]) -> None:
-    """Leaves each of the names in the legend once, and no other."""
+def _limit_legend(figure: go.Figure, names: Sequence[str]) -> None:
+    """Shows each of the names once in the legend, and no others."""
     figure.update_traces(showlegend=False)
     for name in names:
         for trace in list(figure.select_traces({'name': name}))[:1]:

@@ -12,7 +12,7 @@ from push_core.geometry import quaternion_to_yaw
 from push_node.stamps import NANOSECONDS, to_nanoseconds
 
 from push_bag.file import Columns
-from push_bag.run.series import Disturbance, Floats, Model, Reference
+from push_bag.run.series import Floats, ModelFacts, PerturbationEvent, Reference
 
 STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
 # fields of each topic that is read by columns
@@ -98,11 +98,11 @@ def reference(message: Any) -> Reference:
     )
 
 
-def model(message: Any) -> Model:
+def model(message: Any) -> ModelFacts:
     """The model of a ModelInfo."""
-    return Model(message.points, message.model_hash, message.kind)
+    return ModelFacts(message.points, message.model_hash, message.kind)
 
 
-def disturbance(message: Any) -> Disturbance:
-    """The disturbance of a Perturbation."""
-    return Disturbance(nanoseconds(message), message.kind, message.magnitude)
+def perturbation(message: Any) -> PerturbationEvent:
+    """The perturbation of a Perturbation."""
+    return PerturbationEvent(nanoseconds(message), message.kind, message.magnitude)

@@ -12,15 +12,22 @@ from push_bag.run.conversions import (
     POSE_FIELDS,
     STATE_FIELDS,
     TWIST_FIELDS,
-    disturbance,
     model,
+    perturbation,
     planar_poses,
     positions,
     reference,
     ticks,
     velocities,
 )
-from push_bag.run.series import STATE_COLUMNS, Disturbance, Floats, Model, Reference, RunSeries
+from push_bag.run.series import (
+    STATE_COLUMNS,
+    Floats,
+    ModelFacts,
+    PerturbationEvent,
+    Reference,
+    RunSeries,
+)
 from push_bag.run.topic_table import TopicTable
 
 
@@ -59,14 +66,14 @@ class _Rows:
         self._sources: dict[str, str] = {}
         self._stop_reason = self._end_reason = ''
         self._reference: Reference | None = None
-        self._model: Model | None = None
-        self._disturbances: list[Disturbance] = []
+        self._model: ModelFacts | None = None
+        self._perturbations: list[PerturbationEvent] = []
         self._horizons: list[Record] = []
         self._readers: Mapping[str, Callable[[Record], None]] = {
             **{name: table.add for name, table in self._tables.items()},
             interface.NOMINAL_TRAJECTORY.short_name: self._set_reference,
             interface.MODEL_INFO.short_name: self._set_model,
-            interface.PERTURBATION.short_name: self._add_disturbance,
+            interface.PERTURBATION.short_name: self._add_perturbation,
             interface.HORIZON.short_name: self._horizons.append,
             interface.RUN_END.short_name: self._set_end_reason,
         }
@@ -102,7 +109,7 @@ class _Rows:
             stop_reason=self._end_reason or self._stop_reason,
             reference=self._reference,
             model=self._model,
-            disturbances=tuple(self._disturbances),
+            perturbations=tuple(self._perturbations),
             horizons=tuple(self._horizons),
         )
 
@@ -131,5 +138,5 @@ class _Rows:
     def _set_model(self, record: Record) -> None:
         self._model = model(record.message())
 
-    def _add_disturbance(self, record: Record) -> None:
-        self._disturbances.append(disturbance(record.message()))
+    def _add_perturbation(self, record: Record) -> None:
+        self._perturbations.append(perturbation(record.message()))

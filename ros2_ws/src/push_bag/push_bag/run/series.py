@@ -75,7 +75,7 @@ class Reference:
 
 
 @dataclass(frozen=True)
-class Model:
+class ModelFacts:
     """The model in use: its training size, hash and kind."""
 
     points: int
@@ -84,7 +84,7 @@ class Model:
 
 
 @dataclass(frozen=True)
-class Disturbance:
+class PerturbationEvent:
     """A perturbation: when [ns], of what kind, how large (m or N s)."""
 
     stamp: int
@@ -127,7 +127,7 @@ class RunSeries:
             where neither is told of.
         reference: None where none was recorded.
         model: None where none was recorded.
-        disturbances: in order.
+        perturbations: in order.
         horizons: what the controller planned, as it lies in the bag; see `Horizons`.
     """
 
@@ -140,8 +140,8 @@ class RunSeries:
     states: Stamped
     stop_reason: str
     reference: Reference | None
-    model: Model | None
-    disturbances: tuple[Disturbance, ...]
+    model: ModelFacts | None
+    perturbations: tuple[PerturbationEvent, ...]
     horizons: tuple[Record, ...]
 
     def state(self, name: str) -> Floats:

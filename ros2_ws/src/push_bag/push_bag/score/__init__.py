@@ -1,20 +1,20 @@
 """The score of a run: tracking, contact, timing, messages."""
 
+from push_bag.score.bounds import bound, check_bounds
 from push_bag.score.contact import Contact, contact, loss_intervals
-from push_bag.score.figures import bound, check_bounds
 from push_bag.score.runs_table import Scores, comparison_table, runs_object, runs_table
 from push_bag.score.score import score_run, score_series
 from push_bag.score.score_table import messages_line, score_rows, score_table
-from push_bag.score.tick_table import Table, tick_table
-from push_bag.score.timing import DEADLINE, Timing, timing
+from push_bag.score.tick_table import TickTable, tick_table
+from push_bag.score.timing import DEADLINE, LoopTiming, timing
 from push_bag.score.tracking import Tracking, reference_times, track
 
 __all__ = [
     'DEADLINE',
     'Contact',
+    'LoopTiming',
     'Scores',
-    'Table',
-    'Timing',
+    'TickTable',
     'Tracking',
     'bound',
     'check_bounds',

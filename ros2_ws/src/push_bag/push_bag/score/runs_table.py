@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from push_bag.score.figures import COMPARED, figure, mean_and_spread
+from push_bag.score.bounds import COMPARED, figure, mean_and_spread
 
 # what fits on a line; the JSON has all of COMPARED
 SHOWN = {

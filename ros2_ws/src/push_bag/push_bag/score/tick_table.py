@@ -10,11 +10,11 @@ from push_bag.run import Floats, Nanoseconds, Reference, RunSeries, Stamped
 from push_bag.score.contact import contact
 from push_bag.score.tracking import Tracking, track
 
-Table: TypeAlias = dict[str, NDArray[np.float64] | NDArray[np.int64]]
+TickTable: TypeAlias = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 COUNTS = ('mode', 'iterations', 'solver_status', 'limited')
 
 
-def tick_table(run: RunSeries) -> Table:
+def tick_table(run: RunSeries) -> TickTable:
     """Columns (n,) by name; NaN where a tick has no such figure.
 
     Raises:
@@ -37,7 +37,7 @@ def tick_table(run: RunSeries) -> Table:
     }
 
 
-def _measured(run: RunSeries) -> Table:
+def _measured(run: RunSeries) -> TickTable:
     stamp = run.states.stamp
     x, y, theta = _at(run.object, stamp).T
     tip_x, tip_y = _at(run.pusher, stamp).T
@@ -49,7 +49,7 @@ def _measured(run: RunSeries) -> Table:
     }
 
 
-def _errors(tracking: Tracking, stamp: Nanoseconds) -> Table:
+def _errors(tracking: Tracking, stamp: Nanoseconds) -> TickTable:
     values = np.column_stack(
         [tracking.wanted, tracking.distance, tracking.cross_track, tracking.heading]
     )
@@ -61,7 +61,7 @@ def _errors(tracking: Tracking, stamp: Nanoseconds) -> Table:
     return dict(zip(names, found.T, strict=True))
 
 
-def _contact(run: RunSeries, reference: Reference, stamp: Nanoseconds) -> Table:
+def _contact(run: RunSeries, reference: Reference, stamp: Nanoseconds) -> TickTable:
     touching = contact(run, reference)
     values = np.column_stack([touching.p_y, touching.gap])
     p_y, gap = _at(Stamped(touching.stamp, touching.stamp, values), stamp).T

@@ -18,7 +18,7 @@ WITHOUT_MIDDLEWARE = ('inprocess', 'robot')  # the fact `mode` of such runs
 
 
 @dataclass(frozen=True)
-class Timing:
+class LoopTiming:
     """Times of the ticks in TRACKING [ms].
 
     Attributes:
@@ -35,13 +35,13 @@ class Timing:
     deadline_misses: int
 
 
-def timing(run: RunSeries) -> Timing:
+def timing(run: RunSeries) -> LoopTiming:
     """The times of a run."""
     ticks = run.state('mode') == ControllerState.TRACKING
     latency, unanswered = _answers(run)
     late = int(np.count_nonzero(latency > DEADLINE * 1e3))
     solve, tick = (_measured(run.state(name)[ticks]) for name in ('solve_ms', 'tick_ms'))
-    return Timing(solve, tick, latency, late + unanswered)
+    return LoopTiming(solve, tick, latency, late + unanswered)
 
 
 def _measured(times: Floats) -> Floats:

@@ -1,51 +1,51 @@
-"""Draws the lines of one run into the figure over time: alone, or among other runs."""
+"""Adds the lines of one run to the figure over time."""
 
 from dataclasses import dataclass
 
 import plotly.graph_objects as go
 from push_report.figure_style import INK, RED, thinned
 
-from push_bag.report.view import View
+from push_bag.report.reported_run import ReportedRun
 from push_bag.run import Floats
 
 
 @dataclass(frozen=True)
-class Pen:
-    """Where and for whom is drawn.
+class RunLines:
+    """The lines of one run in a figure.
 
     Attributes:
-        figure: with one row for each quantity.
-        view: the run.
-        alone: whether it has the figure to itself: each line then has a colour and a name of
-            its own; otherwise all lines of a run share its colour and its name, and what would
-            crowd the rows is left out.
+        figure: one row for each quantity.
+        run: the run.
+        alone: whether the figure shows this run only. If so, each line has its own colour and
+            name; if not, all lines of a run share the run's colour and name, and details,
+            reference and marks are left out.
     """
 
     figure: go.Figure
-    view: View
+    run: ReportedRun
     alone: bool
 
     def line(self, row: int, name: str, time: Floats, values: Floats, colour: str) -> None:
-        """The main line of a row, values (n,) over times (n,) [s]."""
+        """Adds the main line of a row: values (n,) over times (n,) [s]."""
         if self.alone:
             self._add(row, name, time, values, {'color': colour, 'width': 1.5})
         else:
-            style = {'color': self.view.colour, 'width': 1.5}
-            self._add(row, self.view.name, time, values, style)
+            style = {'color': self.run.colour, 'width': 1.5}
+            self._add(row, self.run.name, time, values, style)
 
     def detail(self, row: int, name: str, time: Floats, values: Floats, colour: str) -> None:
-        """A further line, drawn only for a run that is alone."""
+        """Adds a further line if the run is alone."""
         if self.alone:
             self._add(row, name, time, values, {'color': colour, 'width': 1.5})
 
-    def wanted(self, row: int, time: Floats, values: Floats) -> None:
-        """What the reference says, drawn only for a run that is alone."""
+    def nominal(self, row: int, time: Floats, values: Floats) -> None:
+        """Adds the reference's values if the run is alone."""
         if self.alone:
             style = {'color': INK, 'width': 1.5, 'dash': 'dot'}
             self._add(row, 'nominal', time, values, style)
 
     def marks(self, row: int, name: str, time: Floats, values: Floats) -> None:
-        """Red points, drawn only for a run that is alone."""
+        """Adds red points if the run is alone."""
         if self.alone and time.size:
             x, y = thinned(time, values)
             style = {'color': RED, 'size': 5}

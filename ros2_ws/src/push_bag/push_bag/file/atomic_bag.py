@@ -11,7 +11,7 @@ from push_bag.file.bag_writer import BagWriter
 
 
 @contextmanager
-def whole_bag(
+def atomic_bag(
     folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
 ) -> Iterator[BagWriter]:
     """A writer whose folder goes away again when anything goes wrong; see `BagWriter`.

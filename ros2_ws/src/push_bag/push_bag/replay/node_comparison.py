@@ -12,7 +12,7 @@ from push_node.interface import OBJECT_POSE, PUSHER_POSE
 from rclpy.node import Node
 from tqdm import tqdm
 
-from push_bag.replay.questioner import Question, Questioner
+from push_bag.replay.node_client import NodeClient, TickInput
 from push_bag.replay.recompute import Recomputed
 from push_bag.run import ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
 
@@ -31,10 +31,10 @@ def interviewed(path: Path, node: Node) -> Recomputed:
         RunError: no controller answers.
     """
     run = RecordedRun(path)
-    return Interview(run, node).result()
+    return NodeComparison(run, node).result()
 
 
-class Interview:
+class NodeComparison:
     """Asks for each tick of a run."""
 
     def __init__(self, run: RecordedRun, node: Node) -> None:
@@ -59,7 +59,7 @@ class Interview:
             name: ByStamp([nanoseconds(message) for message in messages], published[name])
             for name, messages in self._messages.items()
         }
-        self._questioner = Questioner(node, topic[: -len(short_name(topic))])
+        self._client = NodeClient(node, topic[: -len(short_name(topic))])
         self._mode = ControllerState.IDLE
 
     def result(self) -> Recomputed:
@@ -87,21 +87,21 @@ class Interview:
         question = self._question(tick)
         before, self._mode = self._mode, tick.mode
         if tick.mode == ControllerState.STOPPED and question is None:
-            self._questioner.stop()
+            self._client.stop()
             return np.zeros(2)
         if tick.mode == ControllerState.IDLE or question is None:
             return None
         if tick.mode == ControllerState.ARMED and before != ControllerState.ARMED:
-            self._questioner.begin(question)
-        return self._questioner.answer(question)
+            self._client.begin(question)
+        return self._client.answer(question)
 
-    def _question(self, tick: RecordedTick) -> Question | None:
+    def _question(self, tick: RecordedTick) -> TickInput | None:
         """What the controller knew; None where it answered no pose, or one that is lost."""
         object_pose, tip = (self._message(name, tick) for name in POSES)
         if math.isnan(tick.exposure) or object_pose is None or tip is None:
             return None
         now = tick.stamp + round((tick.now - tick.exposure) * 1e9)
-        return Question(tick.stamp, now, object_pose, tip)
+        return TickInput(tick.stamp, now, object_pose, tip)
 
     def _message(self, name: str, tick: RecordedTick) -> Any:
         row = self._places[name].row(tick.stamp, tick.published)

@@ -28,7 +28,7 @@ ATTEMPTS = 50
 
 
 @dataclass(frozen=True)
-class Question:
+class TickInput:
     """What the controller knew at one tick.
 
     Attributes:
@@ -44,7 +44,7 @@ class Question:
     tip: PoseStamped
 
 
-class Questioner:
+class NodeClient:
     """Stands in for the simulator of a controller."""
 
     def __init__(self, node: Node, prefix: str) -> None:
@@ -65,7 +65,7 @@ class Questioner:
         self._spinner = Spinner(node)
         self._answers: dict[int, Floats] = {}
 
-    def begin(self, first: Question) -> None:
+    def begin(self, first: TickInput) -> None:
         """Starts the controller anew, whatever it was doing.
 
         Raises:
@@ -87,7 +87,7 @@ class Questioner:
         """
         self._call(interface.STOP)
 
-    def answer(self, question: Question) -> Floats:
+    def answer(self, question: TickInput) -> Floats:
         """What the controller sends (2,) [m/s].
 
         Raises:
@@ -100,13 +100,13 @@ class Questioner:
                 return self._answers[question.stamp]
         raise RunError('mpc_node does not answer; run it with mode:=lockstep')
 
-    def _start(self, first: Question) -> Any:
+    def _start(self, first: TickInput) -> Any:
         """An attempt to start; the controller wants to have seen poses before."""
         self._show(first)
         self._happens(lambda: False, PATIENCE)
         return self._call(interface.START)
 
-    def _show(self, question: Question) -> None:
+    def _show(self, question: TickInput) -> None:
         self._clock.publish(Clock(clock=to_stamp(question.now)))
         self._tip.publish(question.tip)
         self._object.publish(question.object_pose)

@@ -1,4 +1,4 @@
-"""A run as the report draws it: its series, its errors, its name and its colour."""
+"""A run with all that the report draws of it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,57 +8,57 @@ from push_core.common import InputError
 from push_report.figure_style import RUN_COLOURS
 
 from push_bag.run import Reference, RunSeries
-from push_bag.score import Contact, Timing, Tracking, contact, timing, track
+from push_bag.score import Contact, LoopTiming, Tracking, contact, timing, track
 
 Scored = tuple[RunSeries, Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class View:
-    """One run, ready to be drawn.
+class ReportedRun:
+    """One run of a report.
 
     Attributes:
-        name: tells the runs of one report apart.
-        colour: of its lines where several runs share a figure.
-        run: what was recorded.
-        score: of the run.
-        reference: that it followed.
-        tracking: its errors.
-        contact: where the tip was on the face.
-        timing: how long its loop took.
+        name: unique in the report.
+        colour: of the run's lines in figures of several runs.
+        series: the recorded time series.
+        score: as `score_series` returns it.
+        reference: the reference that the run followed.
+        tracking: tracking errors.
+        contact: position of the tip on the face.
+        timing: times of the control loop.
     """
 
     name: str
     colour: str
-    run: RunSeries
+    series: RunSeries
     score: Mapping[str, Any]
     reference: Reference
     tracking: Tracking
     contact: Contact
-    timing: Timing
+    timing: LoopTiming
 
 
-def views(scored: Sequence[Scored]) -> list[View]:
+def reported_runs(scored: Sequence[Scored]) -> list[ReportedRun]:
     """The runs of one report, in the order given.
 
     Raises:
         InputError: a run holds no reference.
     """
-    return [_view(number, run, score) for number, (run, score) in enumerate(scored)]
+    return [_reported(number, run, score) for number, (run, score) in enumerate(scored)]
 
 
 def title(score: Mapping[str, Any]) -> str:
-    """What a run was, in a few words."""
+    """Track, speed and controller of a run."""
     return f'{score["track"]} at {score["speed_m_s"] * 1e3:.0f} mm/s, {score["controller"]}'
 
 
-def _view(number: int, run: RunSeries, score: Mapping[str, Any]) -> View:
+def _reported(number: int, run: RunSeries, score: Mapping[str, Any]) -> ReportedRun:
     if run.reference is None:
         raise InputError('the bag holds no nominal trajectory, so there is nothing to report')
-    return View(
+    return ReportedRun(
         name=f'{number + 1}: {title(score)}{_setting(run)}',
         colour=RUN_COLOURS[number % len(RUN_COLOURS)],
-        run=run,
+        series=run,
         score=score,
         reference=run.reference,
         tracking=track(run, run.reference),
@@ -68,7 +68,7 @@ def _view(number: int, run: RunSeries, score: Mapping[str, Any]) -> View:
 
 
 def _setting(run: RunSeries) -> str:
-    """What else tells a run from others of its kind."""
+    """Perturbation, profile and seed of a run, in parentheses."""
     perturbed = run.facts.get('perturb', 'none')
     words = [] if perturbed == 'none' else [perturbed]
     words += [f'{name} {run.facts[name]}' for name in ('profile', 'seed') if name in run.facts]
