@@ -5,10 +5,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from push_mpc.qp.stages import NX, InputSpace, Stages
-from push_mpc.qp.tracking_qp import TrackingQP
+from push_mpc.qp.tracking_qp import OSQP_SETTINGS, TrackingQP
 from push_sim.plant.perturbation import Kind
 
 NU = 2
+ITERATION_LIMIT = 7  # a status of OSQP
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
@@ -124,3 +125,34 @@ def test_stages_give_back_what_they_were_made_of(problem) -> None:
     given_parts = [*problem[:4], *problem[4]]
     for given, found in zip(given_parts, [*again[:4], *again[4]], strict=True):
         np.testing.assert_allclose(found, given[[3, 1]], rtol=1e-14, atol=1e-18)
+
+
+@pytest.fixture
+def interrupted(problem, monkeypatch):
+    """The solution, with bounds that bind, after so many iterations of a solver never content."""
+    half = 0.5 * np.abs(solved(problem).inputs).max()
+    limit = np.full((6, 3), [1.0, half, half])
+    bounded = (*problem[:4], (-limit, limit), problem[5])
+
+    def solve(iterations: int):
+        for name, value in (('eps_abs', 1e-15), ('eps_rel', 1e-15), ('max_iter', iterations)):
+            monkeypatch.setitem(OSQP_SETTINGS, name, value)
+        return solved(bounded)
+
+    return solve
+
+
+def test_at_the_iteration_limit_a_solution_that_keeps_its_constraints_is_usable(
+    interrupted,
+) -> None:
+    nearly = interrupted(40)
+    assert (nearly.status, nearly.usable) == (ITERATION_LIMIT, True)
+    assert nearly.residual < 1e-3
+
+
+def test_at_the_iteration_limit_a_solution_that_breaks_its_constraints_is_refused(
+    interrupted,
+) -> None:
+    far_off = interrupted(5)
+    assert (far_off.status, far_off.usable) == (ITERATION_LIMIT, False)
+    assert far_off.residual > 0.1

@@ -21,8 +21,11 @@ from scipy import sparse
 
 from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 
-# OSQP's solved, solved inaccurately, and out of iterations: near enough to steer by
-_USABLE_STATUS = (1, 2, 7)
+_SOLVED_STATUS = (1, 2)  # OSQP's solved, and solved inaccurately
+_ITERATION_LIMIT = 7
+_LARGEST_RESIDUAL = 0.1
+"""Largest violation of a constraint at which an unfinished solution may be used, in the solver's
+units: 0.1 mm, 1 mrad, 1 mm/s."""
 OSQP_SETTINGS = {
     'verbose': False,
     'eps_abs': 5e-5,
@@ -47,6 +50,7 @@ class Solution:
         cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
         iterations: that it took.
+        residual: largest violation of a constraint, in the solver's units.
     """
 
     inputs: Array
@@ -54,11 +58,18 @@ class Solution:
     cost: float
     status: int
     iterations: int
+    residual: float
 
     @property
     def usable(self) -> bool:
-        """Whether the inputs are finite and not a proof that there are none."""
-        return self.status in _USABLE_STATUS and bool(np.isfinite(self.inputs).all())
+        """Whether the inputs are finite and keep the constraints.
+
+        At the iteration limit the inputs may be short of the optimum, but not of the dynamics
+        and the bounds: the residual of an infeasible problem stays large.
+        """
+        unfinished = self.status == _ITERATION_LIMIT and self.residual <= _LARGEST_RESIDUAL
+        usable = unfinished or self.status in _SOLVED_STATUS
+        return usable and bool(np.isfinite(self.inputs).all())
 
 
 @dataclass(frozen=True)
@@ -200,7 +211,12 @@ class TrackingQP:
         states = result.x[: self._states].reshape(-1, NX)
         info = result.info
         return Solution(
-            self._inputs, states, float(info.obj_val), int(info.status_val), int(info.iter)
+            self._inputs,
+            states,
+            float(info.obj_val),
+            int(info.status_val),
+            int(info.iter),
+            float(info.prim_res),
         )
 
     @property
