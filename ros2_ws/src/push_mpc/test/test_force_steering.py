@@ -91,3 +91,23 @@ def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     assert all(np.array_equal(other.entries, stages[0].entries) for other in stages)
     widths = [stage.high[0] - stage.low[0] for stage in stages]
     assert [bool(width[4] > 0.0) for width in widths] == [False, True, True]
+
+
+@pytest.mark.parametrize('p_y', [0.0, -0.02, 0.03])
+def test_the_tip_is_never_faster_than_the_limit_wherever_it_touches(slider, p_y) -> None:
+    plan = flat_plan(by_name('line'), 0.08, slider, laps=1, period=0.01, overrun=2.0)
+    behind = np.array([-0.1, 0.0, 0.0, p_y])
+    speeds = []
+    for limit in (2.0, 0.1):
+        family = ForceSteering(replace(SETTINGS, normal_speed_limit=limit), slider)
+        stride = horizon_stride(plan, SETTINGS)
+        programs = family.programs(None, plan, stride)
+        family.prepare(programs, stride * np.arange(SETTINGS.horizon_steps))
+        state, sent = plan.state[0] + behind, plan.input[0]
+        move = family.solve(programs, state, behind, 0.0, 0.0, np.zeros(3), sent)
+        assert move.usable
+        speeds.append(move.velocity[0])
+    free, bounded = speeds
+    assert free > 0.12
+    # the solver's tolerance
+    assert 0.08 < bounded <= 0.1 + 1e-5

@@ -56,6 +56,12 @@ class ContactForce:
         velocity[1] += force[2]
         return np.asarray(velocity)
 
+    def normal_force(self, p_y: Array, speed: float) -> Array:
+        """Forces f_n (n,) that alone move contact points at p_y (n,) inwards at a speed [m/s]."""
+        slider = self.slider
+        mobility = point_contact.mobility(slider.p_x, p_y, slider.support_radius**2)
+        return np.asarray(speed / (self._weights[0] * mobility[0]))
+
     def of_velocity(self, p_y: Array, velocity: Array) -> Array:
         """Inputs (n, 3) that result from tip velocities (n, 2) [m/s] at offsets p_y (n,) [m]."""
         each = zip(p_y.tolist(), *velocity.T.tolist(), strict=True)

@@ -80,23 +80,33 @@ class ForceSteering:
         before = self._motion.input_of(state[3], *sent.tolist()) - nominal
         solutions = [each.solve(deviation, opening, disturbance, before) for each in self.solvers]
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
-        velocity = self._motion.tip_velocity(state[3], nominal + best.inputs[0])
+        velocity = self._within_limit(
+            self._motion.tip_velocity(state[3], nominal + best.inputs[0])
+        )
         iterations = sum(solution.iterations for solution in solutions)
         return Move(velocity, best.status, iterations, best.usable, best.states)
+
+    def _within_limit(self, velocity: Array) -> Array:
+        """A tip velocity (2,) slowed down to the largest v_n.
+
+        The QP bounds the force at the planned p_y, not the speed at the measured one. The
+        direction stays, and with it the contact mode.
+        """
+        return velocity / max(1.0, float(velocity[0]) / self._settings.normal_speed_limit)
 
     def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
         slider = self._motion.slider
         nominal = np.column_stack([preview.contact, preview.input @ _limited(slider).T])
-        strongest = self._settings.normal_speed_limit / LimitSurface.of(slider).weights[0]
         slip = self._settings.tangential_speed_limit
         # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
         low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
-        high = np.array([0.5 * slider.side, strongest, 0.0, np.inf, 0.0])
+        high = np.tile([0.5 * slider.side, 0.0, 0.0, np.inf, 0.0], (len(nominal), 1))
+        high[:, 1] = self._motion.normal_force(preview.contact, self._settings.normal_speed_limit)
         if mode == ContactMode.SLIDING_LEFT:
-            low[2], high[4] = 0.0, slip
+            low[2], high[:, 4] = 0.0, slip
         if mode == ContactMode.SLIDING_RIGHT:
-            high[3], low[4] = 0.0, -slip
+            high[:, 3], low[4] = 0.0, -slip
         return low - nominal, high - nominal
 
 

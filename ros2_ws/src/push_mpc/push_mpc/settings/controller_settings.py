@@ -28,14 +28,19 @@ class Weights:
 
 @dataclass(frozen=True)
 class ForceWeights:
-    """Diagonals of Q and R of the Family of Modes; forces in the scale of the limit surface."""
+    """Diagonals of Q and R of the Family of Modes.
+
+    Its forces are those of the paper: twist = grad H(force) without a factor (lambda = 1), so that
+    their size stands for the speed. They are not the forces that the contact feels, and carry no
+    unit.
+    """
 
     position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
     position_y: float = setting(6000.0, 'object position, y', unit='1/m^2', low=0.0, high=1e9)
     heading: float = setting(1.0, 'object heading', unit='1/rad^2', low=0.0, high=1e9)
     contact: float = setting(30.0, 'contact offset p_y', unit='1/m^2', low=0.0, high=1e9)
-    normal: float = setting(0.1, 'normal force f_n', unit='1/N^2', low=1e-9, high=1e9)
-    tangential: float = setting(0.01, 'tangential force f_t', unit='1/N^2', low=1e-9, high=1e9)
+    normal: float = setting(0.1, 'normal force f_n, at lambda = 1', low=1e-9, high=1e9)
+    tangential: float = setting(0.01, 'tangential force f_t, at lambda = 1', low=1e-9, high=1e9)
     slip: float = setting(1.0, 'slip of the tip', unit='s^2/m^2', low=1e-9, high=1e9)
     change: float = setting(
         40.0,
@@ -75,7 +80,13 @@ class ControllerSettings:
     normal_speed_limit: float = setting(
         0.25, 'largest v_n; the smallest is 0', unit='m/s', low=1e-3, high=2.0
     )
-    tangential_speed_limit: float = setting(0.15, 'largest |v_t|', unit='m/s', low=1e-3, high=2.0)
+    tangential_speed_limit: float = setting(
+        0.15,
+        'largest |v_t|, of the Family of Modes largest |slip|',
+        unit='m/s',
+        low=1e-3,
+        high=2.0,
+    )
     consistent_plan: bool = setting(
         True, "re-plan with the model's own motion equations when a model arrives"
     )
