@@ -96,9 +96,10 @@ class Controller:
         self._disturbance.reset()
 
     def stop(self, reason: str) -> None:
-        """Stops; the stop latches until `resume`."""
-        self.mode = Mode.STOPPED
-        self.stop_reason = reason
+        """Stops; the stop latches until `resume`, and so does its first reason."""
+        if self.mode != Mode.STOPPED:
+            self.mode = Mode.STOPPED
+            self.stop_reason = reason
 
     def hold(self, now: float) -> Tick:
         """Commands zero at a time [s] because no fresh pose is there; the next pose continues."""
