@@ -16,7 +16,7 @@ from push_mpc.plan.planning import planned
 from push_mpc.settings.node_settings import mpc_settings
 from push_sim.collect import collect_pushes
 from push_sim.node.node_settings import node_settings
-from push_sim.plant.plant import Observation
+from push_sim.plant.sensor import Observation
 
 Lap = Callable[..., tuple[bool, float]]
 

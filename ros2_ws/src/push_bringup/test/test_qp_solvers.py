@@ -12,7 +12,8 @@ from push_bringup.setup.cell_parameters import installed_config, resolved
 from push_gp.models.analytical_model import AnalyticalModel
 from push_mpc.loop.controller import Mode
 from push_mpc.plan.planning import planned
-from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.perturbation import Perturbation
+from push_sim.settings.plant_settings import PerturbationKind
 
 
 @pytest.fixture(scope='module', params=['gp', 'analytical'])
@@ -30,7 +31,7 @@ def recorded(request, tmp_path_factory):
         if tick.mode == Mode.TRACKING:
             ticks.append(cell.controller.problems)
         if len(ticks) == 30:
-            cell.plant.perturb(Perturbation(Kind.TANGENTIAL, 0.02))
+            cell.plant.perturb(Perturbation(PerturbationKind.TANGENTIAL, 0.02))
         if len(ticks) == 60:
             cell.controller.stop('enough')
 

@@ -18,8 +18,9 @@ from push_mpc.qp.stages import Stages
 from push_mpc.qp.tracking_qp import Solution, TrackingQP
 from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.table.surrogate import Grid, Table
-from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.perturbation import Perturbation
 from push_sim.plant.plant import Plant
+from push_sim.settings.plant_settings import PerturbationKind
 from push_sim.settings.profiles import profile
 from scipy import sparse
 
@@ -65,7 +66,7 @@ class Cell:
         self.seen = self.plant.step()
         return tick
 
-    def disturb(self, kind: Kind, magnitude: float) -> None:
+    def disturb(self, kind: PerturbationKind, magnitude: float) -> None:
         self.plant.perturb(Perturbation(kind, magnitude))
 
 

@@ -12,7 +12,7 @@ from push_mpc.motion.contact_force import ContactForce
 from push_mpc.plan.nominal import flat_plan
 from push_mpc.qp.force_steering import FAMILY, ForceSteering
 from push_mpc.settings.node_settings import mpc_settings
-from push_sim.plant.perturbation import Kind
+from push_sim.settings.plant_settings import PerturbationKind
 
 SETTINGS = replace(
     mpc_settings('irb120'), controller='analytical', good_poses=3, consistent_plan=False
@@ -31,7 +31,11 @@ def recorded(make_cell, recorded_problems):
     """Problems of each program in 150 ticks with kicks, and the solutions."""
     cell = make_cell(SETTINGS)
     cell.controller.arm()
-    kicks = {40: (Kind.TANGENTIAL, 0.02), 80: (Kind.NORMAL, 0.02), 120: (Kind.TANGENTIAL, -0.02)}
+    kicks = {
+        40: (PerturbationKind.TANGENTIAL, 0.02),
+        80: (PerturbationKind.NORMAL, 0.02),
+        120: (PerturbationKind.TANGENTIAL, -0.02),
+    }
     for tick in range(160):
         if tick in kicks:
             cell.disturb(*kicks[tick])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from push_mpc.loop.controller import Mode
 from push_mpc.node.horizon_message import HorizonMessage
-from push_sim.plant.perturbation import Kind
+from push_sim.settings.plant_settings import PerturbationKind
 
 
 @pytest.fixture
@@ -32,7 +32,7 @@ def test_it_begins_at_the_predicted_state_and_ends_on_the_reference(tracking, me
 def test_the_plan_comes_true_while_a_kick_is_made_good(tracking, message) -> None:
     for _ in range(60):
         tracking.tick()
-    tracking.disturb(Kind.NORMAL, 0.004)
+    tracking.disturb(PerturbationKind.NORMAL, 0.004)
     ticks = [tracking.tick() for _ in range(25)]
     horizon = message.of(ticks[-1].planned, 7)
     planned, ahead = poses(horizon), 10

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from push_mpc.loop.controller import Mode
 from push_mpc.settings.recontact import RecontactSettings, approach, departure, is_apart
-from push_sim.plant.perturbation import Kind
+from push_sim.settings.plant_settings import PerturbationKind
 
 SETTINGS = RecontactSettings()
 
@@ -17,7 +17,7 @@ def distance_to_reference(cell, tick) -> float:
 
 
 def test_off_the_face_it_approaches_and_then_catches_up_with_the_reference(tracking) -> None:
-    tracking.disturb(Kind.NORMAL, 0.03)
+    tracking.disturb(PerturbationKind.NORMAL, 0.03)
     ticks = [tracking.tick() for _ in range(150)]
     modes = [tick.mode for tick in ticks]
     back = modes.index(Mode.TRACKING, modes.index(Mode.RECONTACT))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from push_mpc.qp.stages import NX, InputSpace, Stages
 from push_mpc.qp.tracking_qp import OSQP_SETTINGS, TrackingQP
-from push_sim.plant.perturbation import Kind
+from push_sim.settings.plant_settings import PerturbationKind
 
 NU = 2
 ITERATION_LIMIT = 7  # a status of OSQP
@@ -21,7 +21,11 @@ DISTURBANCE = np.array([0.1, -0.2, 3.0])
 @pytest.fixture
 def recorded(tracking, recorded_problems):
     """The problems of 250 ticks with kicks, and the solutions that the controller had."""
-    kicks = {30: (Kind.TANGENTIAL, 0.02), 100: (Kind.NORMAL, 0.02), 170: (Kind.TANGENTIAL, -0.02)}
+    kicks = {
+        30: (PerturbationKind.TANGENTIAL, 0.02),
+        100: (PerturbationKind.NORMAL, 0.02),
+        170: (PerturbationKind.TANGENTIAL, -0.02),
+    }
     for tick in range(250):
         if tick in kicks:
             tracking.disturb(*kicks[tick])

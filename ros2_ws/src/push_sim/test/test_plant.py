@@ -9,8 +9,9 @@ from push_core.common.errors import InputError
 from push_core.common.settings import replaced
 from push_core.geometry.frames import rotation, to_body
 from push_core.physics.slider import Slider
-from push_sim.plant.perturbation import Kind, Perturbation
+from push_sim.plant.perturbation import Perturbation
 from push_sim.plant.plant import Plant
+from push_sim.settings.plant_settings import PerturbationKind
 from push_sim.settings.profiles import PROFILES, profile
 
 POSE = np.array([0.1, -0.2, 0.3])
@@ -41,7 +42,7 @@ def test_a_reset_gives_the_same_trajectory_bit_for_bit_whatever_came_before(
         for _ in range(20):
             plant.command(random.normal(0.0, 0.1, 2), plant.time)
             plant.step()
-    plant.perturb(Perturbation(Kind.IMPULSE, 0.3, 1.0))
+    plant.perturb(Perturbation(PerturbationKind.IMPULSE, 0.3, 1.0))
     assert np.array_equal(run(plant, start, weave), first)
 
 
@@ -83,7 +84,7 @@ def test_a_restored_plant_goes_on_to_the_last_bit_in_the_same_object_or_another(
         commanded(restored, weave, 40, 50)
         restored.restore(snapshot)
         assert same(commanded(restored, weave, 23, 60), after)
-        assert [d.kind for d in restored.take_disturbances()] == [Kind.IMPULSE]
+        assert [d.kind for d in restored.take_perturbations()] == [PerturbationKind.IMPULSE]
     plant.reset(*start, 3)
     assert same(commanded(plant, weave, 0, 60), before + after)
 
@@ -205,9 +206,9 @@ def test_a_lost_picture_is_none_and_the_next_one_is_found(slider, start) -> None
 
 def test_a_normal_perturbation_leaves_a_gap_of_30_mm(ideal, slider, start) -> None:
     ideal.reset(*start, 0)
-    disturbance = ideal.perturb(Perturbation(Kind.NORMAL, 0.03))
+    applied = ideal.perturb(Perturbation(PerturbationKind.NORMAL, 0.03))
     assert slider.gap(ideal.object_pose, ideal.tip_position) == pytest.approx(0.03, abs=1e-9)
-    np.testing.assert_allclose(disturbance.direction, rotation(POSE[2])[:, 0])
+    np.testing.assert_allclose(applied.direction, rotation(POSE[2])[:, 0])
 
 
 @pytest.mark.parametrize('magnitude', [0.02, -0.02])
@@ -215,9 +216,9 @@ def test_a_tangential_perturbation_shifts_the_contact_along_the_face(
     ideal, slider, start, magnitude
 ) -> None:
     ideal.reset(*start, 0)
-    disturbance = ideal.perturb(Perturbation(Kind.TANGENTIAL, magnitude))
+    applied = ideal.perturb(Perturbation(PerturbationKind.TANGENTIAL, magnitude))
     np.testing.assert_array_equal(ideal.object_pose, start[0])
-    np.testing.assert_allclose(disturbance.direction, rotation(POSE[2])[:, 1])
+    np.testing.assert_allclose(applied.direction, rotation(POSE[2])[:, 1])
     p_y = slider.contact_offset(ideal.object_pose, ideal.tip_position)
     assert p_y == pytest.approx(0.01 + magnitude, abs=1e-9)
     assert slider.gap(ideal.object_pose, ideal.tip_position) == pytest.approx(0.0, abs=1e-9)
@@ -225,7 +226,7 @@ def test_a_tangential_perturbation_shifts_the_contact_along_the_face(
 
 def test_an_impulse_slides_the_object_until_friction_has_stopped_it(ideal, slider) -> None:
     ideal.reset(POSE, np.array([-1.0, 0.0]), 0)
-    ideal.perturb(Perturbation(Kind.IMPULSE, 0.2, angle=1.0))
+    ideal.perturb(Perturbation(PerturbationKind.IMPULSE, 0.2, angle=1.0))
     for _ in range(30):
         ideal.step()
     speed = 0.2 / slider.mass
@@ -236,7 +237,11 @@ def test_an_impulse_slides_the_object_until_friction_has_stopped_it(ideal, slide
 
 
 def test_a_perturbation_that_makes_no_sense_is_refused() -> None:
-    for kind, magnitude in [(Kind.NORMAL, -0.01), (Kind.IMPULSE, 2.0), (Kind.NORMAL, np.nan)]:
+    for kind, magnitude in [
+        (PerturbationKind.NORMAL, -0.01),
+        (PerturbationKind.IMPULSE, 2.0),
+        (PerturbationKind.NORMAL, np.nan),
+    ]:
         with pytest.raises(InputError, match=kind.name.lower()):
             Perturbation(kind, magnitude)
 
@@ -251,7 +256,7 @@ def test_a_scheduled_perturbation_waits_for_its_time_after_the_first_motion(
     for tick in range(40):
         plant.command(FORWARD if tick >= 5 else np.zeros(2), plant.time)
         plant.step()
-        times += [disturbance.time for disturbance in plant.take_disturbances()]
+        times += [applied.time for applied in plant.take_perturbations()]
     assert times == [pytest.approx(Plant.START + 0.05 + 0.1)]
 
 
@@ -259,7 +264,7 @@ def test_a_perturbation_at_time_zero_is_there_from_the_start(slider: Slider, sta
     plant = Plant(replaced(profile('ideal'), {'perturbation.kind': 'normal'}), slider)
     seen = plant.reset(*start, 0)
     assert to_body(seen.object_pose, start[1])[0] == pytest.approx(slider.tip_x - 0.03)
-    assert [disturbance.kind for disturbance in plant.take_disturbances()] == [Kind.NORMAL]
+    assert [applied.kind for applied in plant.take_perturbations()] == [PerturbationKind.NORMAL]
 
 
 def test_a_reset_refuses_what_is_no_state(ideal, start) -> None:

@@ -52,9 +52,9 @@ class InProcessRecord:
         stamp = to_stamp(stamp_ns)
         self._write(interface.PUSHER_POSE, sim.position_message(observation.tip_position, stamp))
         self._write(interface.OBJECT_POSE, sim.pose_message(observation.object_pose, stamp))
-        for disturbance in self._plant.take_disturbances():
-            happened = to_stamp(nanoseconds(disturbance.time))
-            self._write(interface.PERTURBATION, sim.perturbation_message(disturbance, happened))
+        for applied in self._plant.take_perturbations():
+            happened = to_stamp(nanoseconds(applied.time))
+            self._write(interface.PERTURBATION, sim.perturbation_message(applied, happened))
         self.told(tick, stamp_ns, tick_ms)
 
     def told(self, tick: Tick, stamp: int, tick_ms: float) -> None:

@@ -6,7 +6,7 @@ from push_gp.models import model_named
 from push_mpc.loop import Mode, Tick
 from push_mpc.plan import planned
 from push_mpc.qp import Problem
-from push_sim.plant import Kind, Observation, Perturbation
+from push_sim.plant import Observation, Perturbation, PerturbationKind
 from tqdm import tqdm
 
 from push_bringup.in_process import InProcessCell
@@ -14,10 +14,10 @@ from push_bringup.setup import Request, installed_config, resolved
 
 KICK_PERIOD = 4.0  # [s]
 KICKS = (
-    Perturbation(Kind.TANGENTIAL, 0.02),
-    Perturbation(Kind.NORMAL, 0.03),
-    Perturbation(Kind.TANGENTIAL, -0.02),
-    Perturbation(Kind.IMPULSE, 0.1, 1.0),
+    Perturbation(PerturbationKind.TANGENTIAL, 0.02),
+    Perturbation(PerturbationKind.NORMAL, 0.03),
+    Perturbation(PerturbationKind.TANGENTIAL, -0.02),
+    Perturbation(PerturbationKind.IMPULSE, 0.1, 1.0),
 )
 
 

@@ -6,7 +6,7 @@ from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.geometry import Array, yaw_to_quaternion
 from push_msgs.msg import Perturbation as PerturbationMessage
 
-from push_sim.plant import Disturbance
+from push_sim.plant import AppliedPerturbation
 
 FRAME = 'world'
 
@@ -32,10 +32,10 @@ def commanded_velocity(message: TwistStamped) -> Array:
     return np.array([message.twist.linear.x, message.twist.linear.y])
 
 
-def perturbation_message(disturbance: Disturbance, stamp: Time) -> PerturbationMessage:
+def perturbation_message(applied: AppliedPerturbation, stamp: Time) -> PerturbationMessage:
     """What happened, for the record."""
-    message = PerturbationMessage(kind=int(disturbance.kind), magnitude=disturbance.magnitude)
+    message = PerturbationMessage(kind=int(applied.kind), magnitude=applied.magnitude)
     message.header.frame_id = FRAME
     message.header.stamp = stamp
-    message.direction.x, message.direction.y = map(float, disturbance.direction)
+    message.direction.x, message.direction.y = map(float, applied.direction)
     return message

@@ -23,7 +23,7 @@ from push_sim.node.conversions import (
 from push_sim.node.node_settings import NodeSettings, node_settings
 from push_sim.node.pace import LockstepPace, Pace, RealtimePace
 from push_sim.node.viewer_messages import Transforms, scene_markers
-from push_sim.plant import Kind, Observation, Perturbation, Plant
+from push_sim.plant import Observation, Perturbation, PerturbationKind, Plant
 
 _SCENE_PERIOD = 0.05
 _HEALTH_PERIOD = 1.0
@@ -79,9 +79,9 @@ class SimNode(Node):  # type: ignore[misc]
         self._pusher.publish(position_message(observation.tip_position, stamp))
         self._object.publish(pose_message(observation.object_pose, stamp))
         self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))
-        for disturbance in self._plant.take_disturbances():
-            happened = to_stamp(self._pace.stamp(disturbance.time))
-            self._perturbation.publish(perturbation_message(disturbance, happened))
+        for applied in self._plant.take_perturbations():
+            happened = to_stamp(self._pace.stamp(applied.time))
+            self._perturbation.publish(perturbation_message(applied, happened))
 
     def _on_command(self, message: TwistStamped) -> None:
         stamp = to_nanoseconds(message.header.stamp)
@@ -105,7 +105,7 @@ class SimNode(Node):  # type: ignore[misc]
         except PushError as error:
             response.message = str(error)
             return response
-        response.success, response.message = True, 'disturbed'
+        response.success, response.message = True, 'applied'
         return response
 
     def _publish_scene(self) -> None:
@@ -127,9 +127,11 @@ class SimNode(Node):  # type: ignore[misc]
 
 
 def _perturbation(request: Perturb.Request) -> Perturbation:
-    if request.kind not in list(Kind):
-        raise InputError(f'kind is {request.kind}, must be one of {[int(kind) for kind in Kind]}')
-    return Perturbation(Kind(request.kind), request.magnitude, request.angle)
+    if request.kind not in list(PerturbationKind):
+        raise InputError(
+            f'kind is {request.kind}, must be one of {[int(kind) for kind in PerturbationKind]}'
+        )
+    return Perturbation(PerturbationKind(request.kind), request.magnitude, request.angle)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

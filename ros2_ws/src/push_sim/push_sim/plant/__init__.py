@@ -1,7 +1,15 @@
 """The plant: world, robot driver, cameras and perturbations, one period at a time."""
 
-from push_sim.plant.perturbation import Disturbance, Kind, Perturbation
-from push_sim.plant.plant import Observation, Plant
-from push_sim.plant.sensor import Sensor
+from push_sim.plant.perturbation import AppliedPerturbation, Perturbation
+from push_sim.plant.plant import Plant
+from push_sim.plant.sensor import Observation, Sensor
+from push_sim.settings import PerturbationKind
 
-__all__ = ['Disturbance', 'Kind', 'Observation', 'Perturbation', 'Plant', 'Sensor']
+__all__ = [
+    'AppliedPerturbation',
+    'Observation',
+    'Perturbation',
+    'PerturbationKind',
+    'Plant',
+    'Sensor',
+]

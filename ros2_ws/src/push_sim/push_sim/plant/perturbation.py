@@ -1,100 +1,95 @@
-"""Disturbances as the paper makes them: object or tip is displaced, or the object is knocked."""
+"""Perturbations of a lap: the object or the tip is displaced, or the object gets an impulse."""
 
 import math
 from dataclasses import dataclass
-from enum import IntEnum
 
 import numpy as np
 from push_core.common import InputError
 from push_core.geometry import Array, rotation
 
-from push_sim.settings import PerturbationSettings
+from push_sim.settings import PerturbationKind, PerturbationSettings
 from push_sim.worlds.common import World
 
-
-class Kind(IntEnum):
-    """What happens; the numbers are those of push_msgs/Perturbation."""
-
-    NORMAL = 0
-    TANGENTIAL = 1
-    IMPULSE = 2
-
-
-LARGEST_MAGNITUDE = 1.0
-"""In m or N s."""
-
-DEFAULT_MAGNITUDE = {Kind.NORMAL: 0.03, Kind.TANGENTIAL: 0.02, Kind.IMPULSE: 0.3}
+_LARGEST_MAGNITUDE = 1.0
+_DEFAULT_MAGNITUDE = {
+    PerturbationKind.NORMAL: 0.03,
+    PerturbationKind.TANGENTIAL: 0.02,
+    PerturbationKind.IMPULSE: 0.3,
+}
 
 
 @dataclass(frozen=True)
 class Perturbation:
-    """One disturbance.
+    """One perturbation.
 
     Attributes:
         kind: NORMAL moves the object away from the tip, along the inward normal of the pushed
             face; TANGENTIAL moves the tip along the face, so that p_y grows by the magnitude;
-            IMPULSE knocks its centre.
-        magnitude: [m], or [N s] of an impulse.
-        angle: world direction of an impulse [rad].
+            IMPULSE acts on the object's centre.
+        magnitude: [m], or [N s] for an impulse.
+        angle: direction of an impulse in the world [rad].
 
     Raises:
-        InputError: the size is out of range, or would move the object into the tip.
+        InputError: the magnitude is out of range, or would move the object into the tip.
     """
 
-    kind: Kind
+    kind: PerturbationKind
     magnitude: float
     angle: float = 0.0
 
     def __post_init__(self) -> None:
-        low = 0.0 if self.kind == Kind.NORMAL else -LARGEST_MAGNITUDE
-        if not low <= self.magnitude <= LARGEST_MAGNITUDE or not math.isfinite(self.angle):
+        low = 0.0 if self.kind == PerturbationKind.NORMAL else -_LARGEST_MAGNITUDE
+        if not low <= self.magnitude <= _LARGEST_MAGNITUDE or not math.isfinite(self.angle):
             raise InputError(
                 f'magnitude of a {self.kind.name.lower()} perturbation is {self.magnitude:g}, '
-                f'must be between {low:g} and {LARGEST_MAGNITUDE:g}, its angle finite'
+                f'must be between {low:g} and {_LARGEST_MAGNITUDE:g}, its angle finite'
             )
 
     def direction(self, object_pose: Array) -> Array:
-        """World unit vector (2,) of the displacement or the knock, for an object pose (3,)."""
-        if self.kind == Kind.IMPULSE:
+        """Unit vector (2,) of the displacement or impulse in the world, at an object pose (3,)."""
+        if self.kind == PerturbationKind.IMPULSE:
             return np.array([math.cos(self.angle), math.sin(self.angle)])
-        body = {Kind.NORMAL: (1.0, 0.0), Kind.TANGENTIAL: (0.0, 1.0)}[self.kind]
-        return np.asarray(rotation(object_pose[2]) @ np.array(body))
+        normal = self.kind == PerturbationKind.NORMAL
+        body = np.array([1.0, 0.0] if normal else [0.0, 1.0])
+        return np.asarray(rotation(object_pose[2]) @ body)
 
 
 @dataclass(frozen=True)
-class Disturbance:
-    """A perturbation as it happened.
+class AppliedPerturbation:
+    """A perturbation that has been applied.
 
     Attributes:
         time: plant time [s].
-        kind: what happened.
-        magnitude: [m], or [N s] of an impulse.
-        direction: world unit vector (2,).
+        kind: its kind.
+        magnitude: [m], or [N s] for an impulse.
+        direction: unit vector (2,) in the world.
     """
 
     time: float
-    kind: Kind
+    kind: PerturbationKind
     magnitude: float
     direction: Array
 
 
-def disturb(world: World, perturbation: Perturbation, time: float) -> Disturbance:
+def apply_perturbation(
+    world: World, perturbation: Perturbation, time: float
+) -> AppliedPerturbation:
     """Applies a perturbation to a world at a plant time [s]."""
     pose = world.object_pose
     direction = perturbation.direction(pose)
     shift = perturbation.magnitude * direction
     match perturbation.kind:
-        case Kind.IMPULSE:
+        case PerturbationKind.IMPULSE:
             world.push_object(shift)
-        case Kind.TANGENTIAL:
+        case PerturbationKind.TANGENTIAL:
             world.place_tip(world.tip_position + shift)
-        case Kind.NORMAL:
+        case PerturbationKind.NORMAL:
             world.place_object(pose + np.array([*shift, 0.0]))
-    return Disturbance(time, perturbation.kind, perturbation.magnitude, direction)
+    return AppliedPerturbation(time, perturbation.kind, perturbation.magnitude, direction)
 
 
 class Schedule:
-    """The one disturbance that the settings ask for, and when it is due."""
+    """Decides when the perturbation of the settings is due."""
 
     def __init__(self, settings: PerturbationSettings) -> None:
         self._delay = settings.time
@@ -102,26 +97,26 @@ class Schedule:
         self.reset()
 
     def reset(self) -> None:
-        """The disturbance has yet to come."""
-        self._left = self._perturbation
+        """Starts again: the perturbation has not happened yet."""
+        self._pending = self._perturbation
         self._start: float | None = None
 
     def motion_commanded(self, time: float) -> None:
-        """Tells when [s] a non-zero command came; the first one counts."""
+        """Takes the time [s] of a non-zero command; only the first one counts."""
         if self._start is None:
             self._start = time
 
     def due(self, time: float) -> Perturbation | None:
-        """The disturbance, once, as soon as a plant time [s] has reached its moment."""
+        """The perturbation, once, as soon as the plant time [s] reaches its moment."""
         started = self._start is not None and time - self._start >= self._delay
-        if self._left is None or not (started or self._delay == 0.0):
+        if self._pending is None or not (started or self._delay == 0.0):
             return None
-        left, self._left = self._left, None
-        return left
+        pending, self._pending = self._pending, None
+        return pending
 
 
 def _from_settings(settings: PerturbationSettings) -> Perturbation | None:
     if settings.kind == 'none':
         return None
-    kind = Kind[settings.kind.upper()]
-    return Perturbation(kind, settings.magnitude or DEFAULT_MAGNITUDE[kind], settings.angle)
+    kind = PerturbationKind[settings.kind.upper()]
+    return Perturbation(kind, settings.magnitude or _DEFAULT_MAGNITUDE[kind], settings.angle)

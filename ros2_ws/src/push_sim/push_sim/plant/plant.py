@@ -1,4 +1,4 @@
-"""The plant: world, robot, cameras and disturbances, one period at a time."""
+"""The plant: world, robot, cameras and perturbations, one period at a time."""
 
 import copy
 import math
@@ -11,12 +11,15 @@ from push_core.geometry import Array
 from push_core.physics import Slider
 
 from push_sim.plant.driver import Driver
-from push_sim.plant.perturbation import Disturbance, Perturbation, Schedule, disturb
+from push_sim.plant.perturbation import (
+    AppliedPerturbation,
+    Perturbation,
+    Schedule,
+    apply_perturbation,
+)
 from push_sim.plant.sensor import Observation, Sensor
 from push_sim.settings import PERIOD, SimSettings
 from push_sim.worlds import make_world
-
-__all__ = ['Observation', 'Plant', 'PlantSnapshot']
 
 _NANOSECOND = 1e-9
 _NOT_COPIED = ('_settings', '_world')
@@ -55,7 +58,7 @@ class Plant:
         self._schedule = Schedule(settings.perturbation)
         self._substeps = settings.world.substeps
         self._latency = _whole_substeps(settings)
-        self._disturbances: list[Disturbance] = []
+        self._applied: list[AppliedPerturbation] = []
         self._ticks = 0
 
     def reset(self, object_pose: Array, tip_position: Array, seed: int) -> Observation:
@@ -79,8 +82,8 @@ class Plant:
         self._driver.reset(random.spawn(1)[0])
         self._schedule.reset()
         self._sensor.reset(random)
-        self._disturbances.clear()
-        self._disturb_if_due()
+        self._applied.clear()
+        self._perturb_if_due()
         self._pictures = 0
         self._aim_next_picture()
         self._expose_until(0)
@@ -94,7 +97,7 @@ class Plant:
 
     def step(self) -> Observation | None:
         """Advances one period; returns what the sensor shows then, None where that got lost."""
-        self._disturb_if_due()
+        self._perturb_if_due()
         start, duration, done = self.time, self._substep, 0
         while done < self._substeps:
             until = min(self._substeps, self._exposure - self._ticks * self._substeps)
@@ -112,15 +115,15 @@ class Plant:
             if observation is not None:
                 return observation
 
-    def perturb(self, perturbation: Perturbation) -> Disturbance:
+    def perturb(self, perturbation: Perturbation) -> AppliedPerturbation:
         """Disturbs the object now."""
-        disturbance = disturb(self._world, perturbation, self.time)
-        self._disturbances.append(disturbance)
-        return disturbance
+        applied = apply_perturbation(self._world, perturbation, self.time)
+        self._applied.append(applied)
+        return applied
 
-    def take_disturbances(self) -> list[Disturbance]:
-        """The disturbances since the last call, in their order."""
-        taken, self._disturbances = self._disturbances, []
+    def take_perturbations(self) -> list[AppliedPerturbation]:
+        """The perturbations since the last call, in order of time."""
+        taken, self._applied = self._applied, []
         return taken
 
     def snapshot(self) -> PlantSnapshot:
@@ -197,7 +200,7 @@ class Plant:
             self._pictures += 1
             self._aim_next_picture()
 
-    def _disturb_if_due(self) -> None:
+    def _perturb_if_due(self) -> None:
         due = self._schedule.due(self.time)
         if due is not None:
             self.perturb(due)

@@ -3,6 +3,7 @@
 from push_sim.settings.plant_settings import (
     ENGINE_NAMES,
     PERIOD,
+    PerturbationKind,
     PerturbationSettings,
     SensorSettings,
     SimSettings,
@@ -14,6 +15,7 @@ __all__ = [
     'ENGINE_NAMES',
     'PERIOD',
     'PROFILES',
+    'PerturbationKind',
     'PerturbationSettings',
     'SensorSettings',
     'SimSettings',

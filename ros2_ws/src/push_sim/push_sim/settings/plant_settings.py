@@ -6,6 +6,7 @@ friction on the table and on the tip belongs to the world: the controller learns
 
 import math
 from dataclasses import dataclass
+from enum import IntEnum
 
 from push_core.common import InputError, nested, setting, validate
 from push_core.physics import ACTUATORS, ActuatorSettings
@@ -115,12 +116,20 @@ class SensorSettings:
         validate(self)
 
 
+class PerturbationKind(IntEnum):
+    """Kinds of perturbations; the numbers are those of push_msgs/Perturbation."""
+
+    NORMAL = 0
+    TANGENTIAL = 1
+    IMPULSE = 2
+
+
 @dataclass(frozen=True)
 class PerturbationSettings:
-    """One disturbance that happens by itself."""
+    """One perturbation that is applied without a service call."""
 
     kind: str = setting(
-        'none', 'what happens', choices=('none', 'normal', 'tangential', 'impulse')
+        'none', 'what happens', choices=('none', *(kind.name.lower() for kind in PerturbationKind))
     )
     magnitude: float = setting(
         0.0, 'size in m or N s; 0 takes 30 mm, 20 mm or 0.3 N s', low=-1.0, high=1.0
