@@ -1,23 +1,29 @@
 """The benchmarks: laps that are kept, and what is made of them."""
 
-import importlib
 import json
-import sys
+import math
+from typing import Any
 
 import pytest
 from push_bringup.bench import data as bench_data
-from push_bringup.bench import realtime as bench_realtime
-from push_bringup.bench import results as bench_results
 from push_bringup.bench import stopping as bench_stopping
-from push_bringup.bench import table as bench_table
-from push_bringup.bench.data import Choice, Point
+from push_bringup.bench.data import Choice
 from push_bringup.bench.data_page import data_page
-from push_bringup.bench.realtime import Agreement
-from push_bringup.bench.table import Row
+from push_bringup.bench.rows import (
+    TIMES,
+    AblationRow,
+    PaperRow,
+    RealTimeRow,
+    SizeRow,
+    experiment_json,
+    times_json,
+)
 from push_bringup.bench.table_page import table_page
+from push_bringup.bench.tables import ablation_rows, paper_rows, real_time_rows, time_ranges
 from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
+from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
@@ -74,23 +80,23 @@ def test_laps_that_are_there_are_not_pushed_again(tmp_path) -> None:
 
 def test_the_table_tells_median_spread_and_completed_laps() -> None:
     laps = (with_error(1.0), with_error(2.0), with_error(4.0, completed=False))
-    row = Row(Experiment('eight', 0.08), 'gp', 'irb120', laps)
+    row = PaperRow(Experiment('eight', 0.08), 'gp', 'irb120', laps)
     told = row.as_json()
     assert (told['median_mm'], told['spread_mm'], told['completed']) == (2.0, 3.0, 2)
     assert told['paper_mm'] == PAPER_MM[row.experiment]['gp'] == 8.5
-    assert '| 2 of 3 | 2.00 mm | 3.00 mm | 8.50 mm |' in bench_table.table([row])
+    assert '| 2 of 3 | 2.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [told]})
     assert 'eight 80 mm' in table_page([row])
 
 
 def test_a_size_tells_the_quartiles_of_the_laps_that_were_completed() -> None:
     laps = (*(with_error(error) for error in (1.0, 2.0, 3.0)), with_error(90.0, False))
-    told = Point(10, 'zero', 'random', laps).as_json()
+    told = SizeRow(10, 'zero', 'random', laps).as_json()
     assert (told['draws'], told['completed'], told['median_mm']) == (4, 3, 2.0)
     assert told['quartiles_mm'] == [1.5, 2.5]
-    nothing = Point(5, 'zero', 'die', (with_error(9.0, completed=False),)).as_json()
+    nothing = SizeRow(5, 'zero', 'die', (with_error(9.0, completed=False),)).as_json()
     assert nothing['median_mm'] is nothing['quartiles_mm'] is None
     json.dumps([told, nothing], allow_nan=False)
-    assert 'analytical controller' in data_page([Point(10, 'zero', 'random', laps)], LAP)
+    assert 'analytical controller' in data_page([SizeRow(10, 'zero', 'random', laps)], LAP)
 
 
 def test_nested_draws_of_one_seed_contain_each_other(pushes) -> None:
@@ -127,47 +133,44 @@ def test_a_wrong_command_is_one_line_and_status_2(
     assert fault in said
 
 
-def test_real_time_is_told_as_a_ratio_to_in_process() -> None:
-    row = Agreement(LINE, 'gp', (1.0, 2.0, 4.0), (2.5, 2.0, 9.0), completed=2, deadline_misses=7)
+def real_time_score(mean: float, completed: bool, solve: float) -> dict[str, Any]:
+    tail = {'p50': solve, 'p99': 2.0 * solve, 'max': 3.0 * solve}
+    return {
+        'completed': completed,
+        'tracking_error_mm': {'mean': mean},
+        'deadline_misses': 3,
+        **dict.fromkeys(TIMES, tail),
+    }
+
+
+def test_real_time_is_a_ratio_to_in_process_and_the_range_of_each_time() -> None:
+    scores = (
+        real_time_score(2.5, True, 0.25),
+        real_time_score(2.0, True, 0.5),
+        real_time_score(9.0, False, 0.125),
+    )
+    row = RealTimeRow(LINE, 'gp', (1.0, 2.0, 4.0), scores)
     told = row.as_json()
     assert (told['in_process_mm'], told['real_time_mm'], told['ratio']) == (2.0, 2.5, 1.25)
-    assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 7 |' in bench_realtime.table([row])
+    assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 9 |' in real_time_rows({'rows': [told]})
+    times = times_json('gp', [row])
+    assert times['solve_ms'] == {'p50': [0.125, 0.5], 'p99': [0.25, 1.0], 'max': [0.375, 1.5]}
+    assert '| gp | 3 | 0.12–0.50 | 0.25–1.00 |' in time_ranges({'times': [times]})
+
+
+def test_an_ablation_names_laps_that_were_not_completed_or_never_tracked() -> None:
+    laps = ((with_error(1.0),), (with_error(2.0, False),), (with_error(math.inf, False),))
+    experiments = [Experiment('eight', 0.08), LINE, Experiment('eight', 0.08, 'normal')]
+    found = {
+        'experiments': [experiment_json(each) for each in experiments],
+        'rows': [AblationRow('without it', laps).as_json()],
+    }
+    table = ablation_rows(finite(found))
+    assert '| controller | eight 80 mm/s | line 150 mm/s | eight 80 mm/s, normal |' in table
+    errors = '1.00 mm | 2.00 mm (0 of 1 laps) | never tracked (0 of 1 laps)'
+    assert f'| without it | {errors} | 3 mm/s |' in table
 
 
 def test_stopping_is_told_by_median_and_largest() -> None:
     told = bench_stopping.text([0.5, 0.75, 2.0])
     assert 'median 0.75 s, largest 2.00 s of 3 runs' in told
-
-
-def test_every_section_of_the_results_is_a_command_that_its_benchmark_takes(tmp_path) -> None:
-    pushes = tmp_path / 'pushes.csv'
-    arguments = bench_results.parser().parse_args(['--measured', str(pushes), '--fresh'])
-    sections = bench_results.sections(arguments)
-    assert {section.bench for section in sections} == {*bench.BENCHES} - {
-        'results',
-        'model',
-        'stopping',
-    }
-    for section in sections:
-        module = importlib.import_module(bench.BENCHES[section.bench][0])
-        module.parser().parse_args(section.options)
-
-
-def test_a_section_shows_its_command_and_what_that_printed(monkeypatch) -> None:
-    def printed(options) -> int:
-        sys.stdout.write('| a table |\n')
-        return 1
-
-    monkeypatch.setattr(bench_table, 'main', printed)
-    options = ('--seeds', '5', '--laps-file', '/somewhere/laps.jsonl', '--fresh')
-    told = bench_results.told(bench_results.Section('The rows', 'Words.', 'table', options))
-    command = '`ros2 run push_bringup bench table --seeds 5`'
-    assert told == f'## The rows\n\nWords.\n\n{command}\n\n| a table |\n'
-
-
-def test_a_benchmark_that_could_not_run_leaves_no_results(monkeypatch, tmp_path, capsys) -> None:
-    monkeypatch.setattr(bench_table, 'main', lambda _options: 2)
-    page = tmp_path / 'results.md'
-    assert bench_results.main(['-o', str(page)]) == 1
-    assert 'bench table ended with status 2' in capsys.readouterr().err
-    assert not page.exists()

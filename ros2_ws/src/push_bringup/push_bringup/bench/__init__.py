@@ -1,1 +1,13 @@
-"""The benchmarks, one module each, and their pages."""
+"""The benchmarks, one module each, and their tables and pages."""
+
+from push_bringup.bench.options import check_positive
+from push_bringup.bench.tables import TABLES, Found, experiment_name, markdown_table, time_ranges
+
+__all__ = [
+    'TABLES',
+    'Found',
+    'check_positive',
+    'experiment_name',
+    'markdown_table',
+    'time_ranges',
+]

@@ -1,19 +1,23 @@
 """`bench ablation`: what each part of the controller is worth, with one part off at a time."""
 
 import argparse
-import math
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
 
-from push_core.common import Parser, json_text, run_command
+from push_core.common import Parser, finite, run_command
 from push_gp.models import ANALYTICAL
 from push_sim.settings import PROFILES
 
-from push_bringup.bench.options import add_lap_options, check_positive, opened_store
-from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, push_all
+from push_bringup.bench.options import (
+    add_lap_options,
+    check_positive,
+    opened_store,
+    print_found,
+)
+from push_bringup.bench.rows import AblationRow, experiment_json
+from push_bringup.bench.tables import ablation_rows
+from push_bringup.experiment import PAPER_MM, Experiment, LapJob, push_all
 from push_bringup.setup import default_model
 
 EXPERIMENTS = (*PAPER_MM, Experiment('eight', 0.15))
@@ -33,29 +37,6 @@ VARIANTS: Mapping[str, Mapping[str, object]] = {
 EPILOG = """Example: bench ablation --seeds 3 --controller gp
 Exit status: 0 done, also where laps were not completed, 2 the command was wrong.
 """
-
-
-@dataclass(frozen=True)
-class AblationRow:
-    """One variant: the laps of each experiment."""
-
-    variant: str
-    laps: tuple[tuple[Lap, ...], ...]
-
-    @property
-    def command_step(self) -> float:
-        """Change of the command from tick to tick, rms, median of the first experiment [mm/s]."""
-        return median(lap.command_step_mm_s for lap in self.laps[0])
-
-    def as_json(self) -> dict[str, object]:
-        """The row as `--json` prints it."""
-        return {
-            'variant': self.variant,
-            'completed': [sum(lap.completed for lap in own) for own in self.laps],
-            'seeds': [len(own) for own in self.laps],
-            'median_mm': [median(lap.mean_mm for lap in own) for own in self.laps],
-            'command_step_mm_s': self.command_step,
-        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -94,15 +75,17 @@ def work(arguments: argparse.Namespace) -> None:
         )
         for variant in VARIANTS
     ]
-    text = table(rows)
+    found = {
+        'experiments': [experiment_json(each) for each in EXPERIMENTS],
+        'rows': [row.as_json() for row in rows],
+    }
     if arguments.html is not None:
         # plotly takes a second to import: only who asks for a page waits for it
         from push_report.page import write_page  # noqa: PLC0415
 
-        write_page(arguments.html, 'What each part is worth', text.splitlines(), ())
-    if arguments.json:
-        text = json_text({'rows': [row.as_json() for row in rows]})
-    sys.stdout.write(text)
+        lines = ablation_rows(finite(found)).splitlines()
+        write_page(arguments.html, 'What each part is worth', lines, ())
+    print_found(arguments, 'ablation', found)
 
 
 def _jobs(arguments: argparse.Namespace) -> list[LapJob]:
@@ -116,31 +99,6 @@ def _jobs(arguments: argparse.Namespace) -> list[LapJob]:
         for experiment in EXPERIMENTS
         for seed in range(arguments.seeds)
     ]
-
-
-def table(rows: Sequence[AblationRow]) -> str:
-    """The rows as a Markdown table: median error, and the laps where some were not completed.
-
-    The last column tells by how much the command changes from tick to tick in the first one.
-    """
-    names = [
-        f'{one.track} {1e3 * one.speed:.0f} mm/s'
-        + ('' if one.perturbation == 'none' else f', {one.perturbation}')
-        for one in EXPERIMENTS
-    ]
-    names.append('command step')
-    head = '| controller | ' + ' | '.join(names) + ' |\n' + '|---' * (len(names) + 1) + '|\n'
-    return head + ''.join(
-        f'| {row.variant} | {" | ".join(map(_cell, row.laps))} | {row.command_step:.0f} mm/s |\n'
-        for row in rows
-    )
-
-
-def _cell(laps: tuple[Lap, ...]) -> str:
-    completed = sum(lap.completed for lap in laps)
-    error = median(lap.mean_mm for lap in laps)
-    text = f'{error:.2f} mm' if math.isfinite(error) else 'never tracked'
-    return text if completed == len(laps) else f'{text} ({completed} of {len(laps)} laps)'
 
 
 if __name__ == '__main__':

@@ -5,12 +5,12 @@ The paper's figure: nested random draws of a large set of pushes, and the five o
 
 import argparse
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common import InputError, Parser, json_text, run_command, write_atomically
+from push_core.common import InputError, Parser, run_command, write_atomically
 from push_core.data import PushSet, read_pushes
 from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, die_rows, nested_rows, save_model
 from push_gp.training.train import train
@@ -18,7 +18,13 @@ from push_sim.collect import collect_pushes
 from push_sim.settings import PROFILES
 from tqdm import tqdm
 
-from push_bringup.bench.options import add_lap_options, check_positive, opened_store
+from push_bringup.bench.options import (
+    add_lap_options,
+    check_positive,
+    opened_store,
+    print_found,
+)
+from push_bringup.bench.rows import SizeRow
 from push_bringup.experiment import Experiment, Lap, LapJob, push_all, worker_pool
 from push_bringup.setup import MODEL_SOURCES, code_key
 
@@ -39,43 +45,6 @@ class Choice:
     mean: str
     choice: str
     draw: int
-
-
-@dataclass(frozen=True)
-class Point:
-    """All draws of one size."""
-
-    points: int
-    mean: str
-    choice: str
-    laps: tuple[Lap, ...]
-
-    @property
-    def completed(self) -> int:
-        """How many laps came to their end."""
-        return sum(lap.completed for lap in self.laps)
-
-    @property
-    def quartiles(self) -> tuple[float, float, float] | None:
-        """Lower quartile, median and upper quartile [mm] of the completed laps, if there are."""
-        errors = [lap.mean_mm for lap in self.laps if lap.completed]
-        if not errors:
-            return None
-        low, middle, high = np.percentile(errors, [25.0, 50.0, 75.0]).tolist()
-        return low, middle, high
-
-    def as_json(self) -> dict[str, object]:
-        """The point as `--json` prints it."""
-        low, middle, high = self.quartiles or (None, None, None)
-        return {
-            'n': self.points,
-            'mean_function': self.mean,
-            'choice': self.choice,
-            'draws': len(self.laps),
-            'completed': self.completed,
-            'median_mm': middle,
-            'quartiles_mm': None if middle is None else [low, high],
-        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -125,10 +94,15 @@ def work(arguments: argparse.Namespace) -> None:
         from push_bringup.bench.data_page import data_page  # noqa: PLC0415
 
         write_atomically(arguments.html, data_page(points, analytical).encode())
-    if arguments.json:
-        _print_json(points)
-    else:
-        sys.stdout.write(_table(points, analytical))
+    found = {
+        'points': [point.as_json() for point in points],
+        'analytical': {
+            'completed': analytical.completed,
+            'stop_reason': analytical.stop_reason,
+            'mean_mm': analytical.mean_mm,
+        },
+    }
+    print_found(arguments, 'data', found)
 
 
 def _pushes(arguments: argparse.Namespace) -> PushSet:
@@ -179,34 +153,11 @@ def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:
     return nested_rows(pushes, choice.points, choice.draw)
 
 
-def _points(choices: Sequence[Choice], laps: Sequence[Lap]) -> list[Point]:
+def _points(choices: Sequence[Choice], laps: Sequence[Lap]) -> list[SizeRow]:
     groups: dict[tuple[int, str, str], list[Lap]] = {}
     for choice, lap in zip(choices, laps, strict=True):
         groups.setdefault((choice.points, choice.mean, choice.choice), []).append(lap)
-    return [Point(*which, tuple(group)) for which, group in groups.items()]
-
-
-def _print_json(points: Iterable[Point]) -> None:
-    block = {'points': [point.as_json() for point in points]}
-    sys.stdout.write(json_text(block))
-
-
-def _table(points: Iterable[Point], analytical: Lap) -> str:
-    head = '| pushes | choice | mean function | completed | median | quartiles |'
-    lines = [head, '|---|---|---|---|---|---|', *map(_line, points)]
-    ended = 'completed' if analytical.completed else analytical.stop_reason
-    return '\n'.join(lines) + f'\n\nanalytical controller: {analytical.mean_mm:.2f} mm, {ended}\n'
-
-
-def _line(point: Point) -> str:
-    errors = '– | –'
-    if point.quartiles is not None:
-        low, middle, high = point.quartiles
-        errors = f'{middle:.2f} mm | {low:.2f} … {high:.2f} mm'
-    return (
-        f'| {point.points} | {point.choice} | {point.mean} '
-        f'| {point.completed} of {len(point.laps)} | {errors} |'
-    )
+    return [SizeRow(*which, tuple(group)) for which, group in groups.items()]
 
 
 if __name__ == '__main__':

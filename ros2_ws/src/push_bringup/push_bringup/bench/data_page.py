@@ -7,13 +7,13 @@ from plotly.subplots import make_subplots
 from push_report.figure_style import INK, RUN_COLOURS, styled
 from push_report.page import drawn, page, section
 
-from push_bringup.bench.data import Point
+from push_bringup.bench.rows import SizeRow
 from push_bringup.experiment import Lap
 
 HEIGHT = 760
 
 
-def data_page(points: Sequence[Point], analytical: Lap) -> str:
+def data_page(points: Sequence[SizeRow], analytical: Lap) -> str:
     """The page; the analytical controller's error is a line across."""
     figure = make_subplots(2, 1, shared_xaxes=True, row_heights=[0.7, 0.3], vertical_spacing=0.06)
     lines = list(dict.fromkeys((point.mean, point.choice) for point in points))
@@ -32,7 +32,7 @@ def data_page(points: Sequence[Point], analytical: Lap) -> str:
     return page('Error over training size', [section('8-track at 80 mm/s', drawn(figure))])
 
 
-def _draw(figure: go.Figure, points: Sequence[Point], name: str, colour: str) -> None:
+def _draw(figure: go.Figure, points: Sequence[SizeRow], name: str, colour: str) -> None:
     style = {'mode': 'lines+markers', 'line': {'color': colour}, 'name': name}
     known = [(point.points, point.quartiles) for point in points if point.quartiles is not None]
     bars = {

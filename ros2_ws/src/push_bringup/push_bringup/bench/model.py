@@ -7,15 +7,17 @@ import resource
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
-from push_core.common import InputError, Parser, RunError, json_text, run_command
+from push_core.common import InputError, Parser, RunError, run_command
 from push_core.data import PushSet, accuracy, read_pushes
 from push_gp.models import nested_rows
 from tqdm import tqdm
 
+from push_bringup.bench.options import print_found
+from push_bringup.bench.rows import LibraryRow
 from push_bringup.rivals import Fitted, fit_gpytorch, fit_ours, fit_scikit_learn
 
 RIVALS: dict[str, tuple[str, Callable[[PushSet], Fitted]]] = {
@@ -29,27 +31,6 @@ HELD_OUT = 500
 EPILOG = """Each runs in a process of its own, on one thread. 'make setup EXTRA=bench' installs
 the libraries; what is not there is left out. The JSON object holds `rivals`.
 """
-
-
-@dataclass(frozen=True)
-class Standing:
-    """What one rival reached.
-
-    Attributes:
-        name: of the library.
-        fit_s: seconds of processor time for all three outputs, with hyperparameters.
-        predict_ms: milliseconds for mean and Jacobian of 35 pushes, the median of many.
-        memory_mb: peak memory of the fit, without that of the imports.
-        log_likelihood: of the training pushes [nat], the sum over the outputs.
-        nmse_push_frame: on pushes held out.
-    """
-
-    name: str
-    fit_s: float
-    predict_ms: float
-    memory_mb: float
-    log_likelihood: float
-    nmse_push_frame: float
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -83,26 +64,11 @@ def work(arguments: argparse.Namespace) -> None:
     order = nested_rows(pushes, len(pushes), arguments.seed)
     training = pushes.take(order[: arguments.points])
     rest = pushes.take(order[arguments.points :][:HELD_OUT])
-    standings = list(_standings(training, rest))
-    if arguments.json:
-        block = {'points': len(training), 'rivals': [asdict(each) for each in standings]}
-        sys.stdout.write(json_text(block))
-    else:
-        sys.stdout.write(table(standings))
+    rows = [asdict(row) for row in _rows(training, rest)]
+    print_found(arguments, 'model', {'points': len(training), 'rivals': rows})
 
 
-def table(standings: Sequence[Standing]) -> str:
-    """The comparison as a Markdown table."""
-    head = '| library | fit | 35 means and Jacobians | memory | log likelihood | NMSE |\n'
-    rows = (
-        f'| {each.name} | {each.fit_s:.2f} s | {each.predict_ms:.2f} ms | {each.memory_mb:.0f} MB '
-        f'| {each.log_likelihood:.2f} | {each.nmse_push_frame:.4f} |\n'
-        for each in standings
-    )
-    return head + '|---|---|---|---|---|---|\n' + ''.join(rows)
-
-
-def _standings(training: PushSet, rest: PushSet) -> Iterator[Standing]:
+def _rows(training: PushSet, rest: PushSet) -> Iterator[LibraryRow]:
     fresh = multiprocessing.get_context('spawn')
     for name in tqdm(RIVALS, desc='comparing', disable=None):
         if importlib.util.find_spec(RIVALS[name][0]) is None:
@@ -132,7 +98,7 @@ def _run(name: str, training: PushSet, rest: PushSet, results: object) -> None:
     queries = rest.inputs[np.arange(HORIZON) % len(rest)]
     predicted, _ = fitted.predict(rest.inputs)
     results.send(  # type: ignore[attr-defined]
-        Standing(
+        LibraryRow(
             name,
             seconds,
             _milliseconds(fitted, queries),

@@ -1,10 +1,14 @@
-"""What the benchmarks that push laps have in common on their command lines."""
+"""What the benchmarks have in common on their command lines, and how they print their results."""
 
 import argparse
+import sys
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
-from push_core.common import InputError, Parser, check_place
+from push_core.common import InputError, Parser, check_place, finite, json_text
 
+from push_bringup.bench.tables import TABLES
 from push_bringup.experiment import LapStore, cores
 
 
@@ -26,7 +30,7 @@ def add_lap_options(parser: Parser, laps: Path) -> None:
 
 
 def add_controllers(parser: Parser) -> None:
-    """Which of the two push."""
+    """The option that chooses the controllers."""
     parser.add_argument(
         '--controllers', choices=('gp', 'analytical'), nargs='+', default=['gp', 'analytical']
     )
@@ -52,3 +56,8 @@ def check_positive(name: str, value: int) -> None:
     """
     if value < 1:
         raise InputError(f'{name} is {value}, must be at least 1')
+
+
+def print_found(arguments: argparse.Namespace, bench: str, found: Mapping[str, Any]) -> None:
+    """Prints what a benchmark found: one JSON object with `--json`, else its Markdown table."""
+    sys.stdout.write(json_text(found) if arguments.json else TABLES[bench](finite(found)))

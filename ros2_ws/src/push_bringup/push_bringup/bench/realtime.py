@@ -5,15 +5,15 @@ import json
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from statistics import median
+from typing import Any
 
-from push_core.common import Parser, RunError, json_text, run_command
+from push_core.common import Parser, RunError, run_command
 from push_gp.models import ANALYTICAL
 from tqdm import tqdm
 
-from push_bringup.bench.options import add_controllers, check_positive
+from push_bringup.bench.options import add_controllers, check_positive, print_found
+from push_bringup.bench.rows import RealTimeRow, times_json
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob, LapStore, push_all
 from push_bringup.setup import code_key, default_model
 
@@ -24,47 +24,6 @@ should run meanwhile. Runs of the same code that are in the folder are not repea
 interrupted benchmark goes on.
 Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
-
-
-@dataclass(frozen=True)
-class Agreement:
-    """One experiment with one controller, both ways.
-
-    Attributes:
-        experiment: what was pushed.
-        controller: gp or analytical.
-        in_process_mm: mean tracking error of each run in process, seeds 0, 1, ….
-        real_time_mm: the same by the clock.
-        completed: runs by the clock that came to their end.
-        deadline_misses: commands that left late or never, of all runs by the clock.
-    """
-
-    experiment: Experiment
-    controller: str
-    in_process_mm: tuple[float, ...]
-    real_time_mm: tuple[float, ...]
-    completed: int
-    deadline_misses: int
-
-    @property
-    def ratio(self) -> float:
-        """Median error by the clock over that in process."""
-        return median(self.real_time_mm) / median(self.in_process_mm)
-
-    def as_json(self) -> dict[str, object]:
-        """The row as `--json` prints it."""
-        return {
-            'track': self.experiment.track,
-            'speed_m_s': self.experiment.speed,
-            'perturbation': self.experiment.perturbation,
-            'controller': self.controller,
-            'runs': len(self.real_time_mm),
-            'completed': self.completed,
-            'in_process_mm': median(self.in_process_mm),
-            'real_time_mm': median(self.real_time_mm),
-            'ratio': self.ratio,
-            'deadline_misses': self.deadline_misses,
-        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -101,48 +60,19 @@ def work(arguments: argparse.Namespace) -> int:
     cases = [
         (experiment, controller) for controller in arguments.controllers for experiment in PAPER_MM
     ]
-    in_process = iter(_in_process(cases, arguments.runs, store))
+    errors = iter(_in_process(cases, arguments.runs, store))
     scores = iter(list(_real_time(cases, arguments.runs, arguments.output)))
+    runs = range(arguments.runs)
     rows = [
-        _agreement(*case, [(next(in_process), next(scores)) for _ in range(arguments.runs)])
+        RealTimeRow(*case, tuple(next(errors) for _ in runs), tuple(next(scores) for _ in runs))
         for case in cases
     ]
-    if arguments.json:
-        sys.stdout.write(json_text({'rows': [row.as_json() for row in rows]}))
-    else:
-        sys.stdout.write(table(rows))
+    found = {
+        'rows': [row.as_json() for row in rows],
+        'times': [times_json(controller, rows) for controller in arguments.controllers],
+    }
+    print_found(arguments, 'realtime', found)
     return 0 if all(row.completed == arguments.runs for row in rows) else 1
-
-
-def table(rows: Sequence[Agreement]) -> str:
-    """The rows as a Markdown table."""
-    head = '| track | speed | perturbation | controller | laps | in process | real time | ratio |'
-    lines = [f'{head} late commands |', '|---' * 9 + '|', *map(_line, rows)]
-    return '\n'.join(lines) + '\n'
-
-
-def _line(row: Agreement) -> str:
-    told = row.as_json()
-    return (
-        f'| {told["track"]} | {1e3 * row.experiment.speed:.0f} mm/s | {told["perturbation"]} '
-        f'| {told["controller"]} | {told["completed"]} of {told["runs"]} '
-        f'| {told["in_process_mm"]:.2f} mm | {told["real_time_mm"]:.2f} mm '
-        f'| {row.ratio:.2f} | {row.deadline_misses} |'
-    )
-
-
-def _agreement(
-    experiment: Experiment, controller: str, pairs: Sequence[tuple[float, dict[str, object]]]
-) -> Agreement:
-    scores = [score for _, score in pairs]
-    return Agreement(
-        experiment,
-        controller,
-        tuple(error for error, _ in pairs),
-        tuple(float(score['tracking_error_mm']['mean']) for score in scores),  # type: ignore[index]
-        sum(bool(score['completed']) for score in scores),
-        sum(int(score['deadline_misses']) for score in scores),  # type: ignore[call-overload]
-    )
 
 
 def _in_process(
@@ -160,7 +90,7 @@ def _in_process(
 
 def _real_time(
     cases: Sequence[tuple[Experiment, str]], runs: int, folder: Path
-) -> Iterator[dict[str, object]]:
+) -> Iterator[dict[str, Any]]:
     """Scores of all runs by the clock."""
     each = [(*case, seed) for case in cases for seed in range(runs)]
     for experiment, controller, seed in tqdm(each, 'real time', unit=' runs', disable=None):
@@ -169,7 +99,7 @@ def _real_time(
         yield _run(experiment, controller, seed, folder / code_key()[:12] / run)
 
 
-def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> dict[str, object]:
+def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> dict[str, Any]:
     """Score of one run of `cell` into a folder, or of the one that is there."""
     if not list(folder.glob('*/score.json')):
         command = [
@@ -182,7 +112,7 @@ def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> di
     scores = list(folder.glob('*/score.json'))
     if not scores:
         raise RunError(f'a run left no score in {folder}; what it said stands above')
-    score: dict[str, object] = json.loads(scores[0].read_text(encoding='utf-8'))
+    score: dict[str, Any] = json.loads(scores[0].read_text(encoding='utf-8'))
     return score
 
 

@@ -2,12 +2,10 @@
 
 import argparse
 import sys
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
-from statistics import fmean, median
 
-from push_core.common import Parser, json_text, run_command, write_atomically
+from push_core.common import Parser, run_command, write_atomically
 from push_gp.models import ANALYTICAL, load_model
 from push_sim.settings import PROFILES
 
@@ -16,46 +14,16 @@ from push_bringup.bench.options import (
     add_lap_options,
     check_positive,
     opened_store,
+    print_found,
 )
-from push_bringup.experiment import PAPER_MM, Experiment, Lap, LapJob, push_all
+from push_bringup.bench.rows import PaperRow
+from push_bringup.experiment import PAPER_MM, LapJob, push_all
 from push_bringup.setup import default_model
 
 EPILOG = """Example: bench table --profile irb120 ideal --seeds 5 --html table.html
 The laps are pushed in process, with all that is random drawn from seeds 0, 1, 2, …
 Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
-
-
-@dataclass(frozen=True)
-class Row:
-    """All laps of an experiment with one controller in one profile."""
-
-    experiment: Experiment
-    controller: str
-    profile: str
-    laps: tuple[Lap, ...]
-
-    @property
-    def completed(self) -> int:
-        """How many laps came to their end."""
-        return sum(lap.completed for lap in self.laps)
-
-    def as_json(self) -> dict[str, object]:
-        """The row as `--json` prints it."""
-        errors = [lap.mean_mm for lap in self.laps]
-        return {
-            'track': self.experiment.track,
-            'speed_m_s': self.experiment.speed,
-            'perturbation': self.experiment.perturbation,
-            'controller': self.controller,
-            'profile': self.profile,
-            'seeds': len(self.laps),
-            'completed': self.completed,
-            'median_mm': median(errors),
-            'mean_mm': fmean(errors),
-            'spread_mm': max(errors) - min(errors),
-            'paper_mm': PAPER_MM[self.experiment][self.controller],
-        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -102,35 +70,14 @@ def work(arguments: argparse.Namespace) -> int:
         for seed in range(arguments.seeds)
     ]
     laps = iter(push_all(jobs, store, arguments.jobs))
-    rows = [Row(*case, tuple(next(laps) for _ in range(arguments.seeds))) for case in cases]
+    rows = [PaperRow(*case, tuple(next(laps) for _ in range(arguments.seeds))) for case in cases]
     if arguments.html is not None:
         # plotly takes a second to import: only who asks for a page waits for it
         from push_bringup.bench.table_page import table_page  # noqa: PLC0415
 
         write_atomically(arguments.html, table_page(rows).encode())
-    if arguments.json:
-        sys.stdout.write(json_text({'rows': [row.as_json() for row in rows]}))
-    else:
-        sys.stdout.write(table(rows))
+    print_found(arguments, 'table', {'rows': [row.as_json() for row in rows]})
     return 0 if all(row.completed == len(row.laps) for row in rows) else 1
-
-
-def table(rows: Iterable[Row]) -> str:
-    """The rows as a Markdown table."""
-    head = (
-        '| profile | track | speed | perturbation | controller | laps | median | spread | paper |'
-    )
-    return f'{head}\n|{"---|" * 9}\n' + ''.join(map(_line, rows))
-
-
-def _line(row: Row) -> str:
-    figures = row.as_json()
-    return (
-        f'| {row.profile} | {figures["track"]} | {1e3 * row.experiment.speed:.0f} mm/s '
-        f'| {figures["perturbation"]} | {figures["controller"]} '
-        f'| {figures["completed"]} of {figures["seeds"]} | {figures["median_mm"]:.2f} mm '
-        f'| {figures["spread_mm"]:.2f} mm | {figures["paper_mm"]:.2f} mm |\n'
-    )
 
 
 if __name__ == '__main__':

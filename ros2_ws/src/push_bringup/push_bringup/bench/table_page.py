@@ -8,7 +8,7 @@ from plotly.subplots import make_subplots
 from push_report.figure_style import GREY, INK, RUN_COLOURS, styled
 from push_report.page import drawn, page, section
 
-from push_bringup.bench.table import Row
+from push_bringup.bench.rows import PaperRow
 from push_bringup.experiment import LapJob
 
 HEADS = ('track', 'speed', 'perturbation', 'controller', 'profile', 'laps', 'median', 'paper')
@@ -16,7 +16,7 @@ TALL = 380
 COLUMNS = ('gp', 'analytical')
 
 
-def table_page(rows: Sequence[Row]) -> str:
+def table_page(rows: Sequence[PaperRow]) -> str:
     """The page; `rows` as `bench table` made them."""
     profiles = list(dict.fromkeys(row.profile for row in rows))
     figures = [
@@ -26,12 +26,12 @@ def table_page(rows: Sequence[Row]) -> str:
     return page("The paper's table", [section('The rows', _table(rows)), *figures])
 
 
-def _table(rows: Sequence[Row]) -> str:
+def _table(rows: Sequence[PaperRow]) -> str:
     head = ''.join(f'<th>{name}</th>' for name in HEADS)
     return f'<table><tr>{head}</tr>{"".join(map(_row, rows))}</table>'
 
 
-def _row(row: Row) -> str:
+def _row(row: PaperRow) -> str:
     figures = row.as_json()
     cells = (
         row.experiment.track,
@@ -46,7 +46,7 @@ def _row(row: Row) -> str:
     return '<tr>' + ''.join(f'<td>{escape(cell)}</td>' for cell in cells) + '</tr>'
 
 
-def _figure(rows: Sequence[Row]) -> str:
+def _figure(rows: Sequence[PaperRow]) -> str:
     """One panel a row: reference, and the path of every seed."""
     experiments = list(dict.fromkeys(row.experiment for row in rows))
     titles = [_panel_title(row) for experiment in experiments for row in _pair(rows, experiment)]
@@ -60,17 +60,17 @@ def _figure(rows: Sequence[Row]) -> str:
     return drawn(figure)
 
 
-def _pair(rows: Sequence[Row], experiment: object) -> list[Row]:
+def _pair(rows: Sequence[PaperRow], experiment: object) -> list[PaperRow]:
     found = {row.controller: row for row in rows if row.experiment == experiment}
     return [found[name] for name in COLUMNS if name in found]
 
 
-def _panel_title(row: Row) -> str:
+def _panel_title(row: PaperRow) -> str:
     kick = '' if row.experiment.perturbation == 'none' else f', {row.experiment.perturbation}'
     return f'{row.experiment.track} {1e3 * row.experiment.speed:.0f} mm/s{kick}, {row.controller}'
 
 
-def _draw(figure: go.Figure, row: Row, line: int, column: int) -> None:
+def _draw(figure: go.Figure, row: PaperRow, line: int, column: int) -> None:
     x, y = _reference(row)
     dots = {'color': INK, 'width': 1, 'dash': 'dot'}
     figure.add_trace(go.Scatter(x=x, y=y, mode='lines', line=dots), row=line, col=column)
@@ -83,7 +83,7 @@ def _draw(figure: go.Figure, row: Row, line: int, column: int) -> None:
     figure.update_yaxes(scaleanchor=f'x{number if number > 1 else ""}', row=line, col=column)
 
 
-def _reference(row: Row) -> tuple[list[float], list[float]]:
+def _reference(row: PaperRow) -> tuple[list[float], list[float]]:
     from push_mpc.plan.planning import planned  # noqa: PLC0415
 
     job = LapJob(row.experiment, 'analytical', 'analytical', row.profile, 0)

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common import Parser, json_text, run_command, write_atomically
+from push_core.common import Parser, run_command, write_atomically
 from push_core.geometry import Array
 from push_gp.models import ANALYTICAL
 from push_mpc.qp import NX, Problem
 from tqdm import tqdm
 
+from push_bringup.bench.options import print_found
+from push_bringup.bench.rows import SolverRow
 from push_bringup.rivals import IN_SI_UNITS, SOLVERS, Solver, exact, recorded
 from push_bringup.setup import default_model
 
@@ -25,36 +27,6 @@ the one thread, for putting the numbers in and solving; the first program of eac
 solver up, is left out. The error is that of the first input against OSQP at 1e-9.
 What is not installed is named: `make setup EXTRA=bench` installs all.
 """
-
-
-@dataclass(frozen=True)
-class Timing:
-    """How one solver did over all ticks.
-
-    Attributes:
-        name: of the solver.
-        milliseconds: each tick took (n,).
-        iterations_max: of a tick.
-        first_input_error: largest one [m/s].
-    """
-
-    name: str
-    milliseconds: Array
-    iterations_max: int
-    first_input_error: float
-
-    def as_json(self) -> dict[str, object]:
-        """The solver's entry of `bench timing --json`."""
-        p50, p99, p999 = np.percentile(self.milliseconds, [50.0, 99.0, 99.9])
-        return {
-            'name': self.name,
-            'p50_ms': p50,
-            'p99_ms': p99,
-            'p999_ms': p999,
-            'max_ms': self.milliseconds.max(),
-            'iterations_max': self.iterations_max,
-            'first_input_error_m_s': self.first_input_error,
-        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -86,35 +58,19 @@ def work(arguments: argparse.Namespace) -> int:
     if arguments.controller == 'gp':
         model = arguments.model or str(default_model())
     ticks = recorded(arguments.controller, model, arguments.seed)
-    timings = list(_timings(ticks))
-    if arguments.json:
-        solvers = [timing.as_json() for timing in timings]
-        told = {'controller': arguments.controller, 'ticks': len(ticks), 'solvers': solvers}
-        sys.stdout.write(json_text(told))
-    else:
-        sys.stdout.write(table(timings))
+    rows = list(_rows(ticks))
+    found = {
+        'controller': arguments.controller,
+        'ticks': len(ticks),
+        'solvers': [row.as_json() for row in rows],
+    }
+    print_found(arguments, 'timing', found)
     if arguments.html:
         # plotly takes a second to import: only who asks for a figure waits for it
         from push_bringup.bench.timing_page import timing_page  # noqa: PLC0415
 
-        write_atomically(arguments.html, timing_page(timings).encode())
+        write_atomically(arguments.html, timing_page(rows).encode())
     return 0
-
-
-def table(timings: Sequence[Timing]) -> str:
-    """The solvers as a Markdown table."""
-    head = '| solver | p50 | p99 | p99.9 | max | iterations | first input |\n'
-    lines = []
-    for timing in timings:
-        row = timing.as_json()
-        times = ' | '.join(
-            f'{row[key]:.2f} ms' for key in ('p50_ms', 'p99_ms', 'p999_ms', 'max_ms')
-        )
-        lines.append(
-            f'| {timing.name} | {times} | {timing.iterations_max} '
-            f'| {timing.first_input_error:.1e} m/s |\n'
-        )
-    return head + '|---|---|---|---|---|---|---|\n' + ''.join(lines)
 
 
 @dataclass(frozen=True)
@@ -126,7 +82,7 @@ class _Solved:
     first_inputs: Array
 
 
-def _timings(ticks: Sequence[Tick]) -> Iterator[Timing]:
+def _rows(ticks: Sequence[Tick]) -> Iterator[SolverRow]:
     expected = [solved.first_inputs for solved in _solved('exact', exact, ticks)]
     missing = []
     for name, make in SOLVERS.items():
@@ -135,21 +91,21 @@ def _timings(ticks: Sequence[Tick]) -> Iterator[Timing]:
         except ImportError:
             missing.append(name)
             continue
-        yield _timing(name, solved, expected, ticks[0])
+        yield _row(name, solved, expected, ticks[0])
     if missing:
         sys.stderr.write(
             f'not installed: {", ".join(missing)}; make setup EXTRA=bench installs them\n'
         )
 
 
-def _timing(
+def _row(
     name: str, solved: Sequence[_Solved], expected: Sequence[Array], first: Tick
-) -> Timing:
+) -> SolverRow:
     unit = np.array([_first_inputs(problem, problem.units[0]) for problem in first])
     pairs = zip(solved, expected, strict=True)
     error = max(float(np.max(np.abs(one.first_inputs - right) / unit)) for one, right in pairs)
     times = np.array([1e3 * one.seconds for one in solved[1:]])
-    return Timing(name, times, max(one.iterations for one in solved), SPEED_UNIT * error)
+    return SolverRow(name, times, max(one.iterations for one in solved), SPEED_UNIT * error)
 
 
 def _solved(

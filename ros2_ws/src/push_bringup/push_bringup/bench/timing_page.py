@@ -5,16 +5,16 @@ from collections.abc import Sequence
 import numpy as np
 import plotly.graph_objects as go
 
-from push_bringup.bench.timing import Timing
+from push_bringup.bench.rows import SolverRow
 
 
-def timing_page(timings: Sequence[Timing]) -> str:
+def timing_page(rows: Sequence[SolverRow]) -> str:
     """One HTML file that needs no server."""
     figure = go.Figure()
-    for timing in timings:
-        slower = np.arange(timing.milliseconds.size, 0, -1) / timing.milliseconds.size
-        times = np.sort(timing.milliseconds)
-        figure.add_scatter(x=times, y=slower, name=timing.name, line_shape='hv')
+    for row in rows:
+        slower = np.arange(row.milliseconds.size, 0, -1) / row.milliseconds.size
+        times = np.sort(row.milliseconds)
+        figure.add_scatter(x=times, y=slower, name=row.name, line_shape='hv')
     figure.update_xaxes(title='update and solve, CPU time [ms]', type='log')
     figure.update_yaxes(title='share of ticks that took longer', type='log')
     figure.update_layout(

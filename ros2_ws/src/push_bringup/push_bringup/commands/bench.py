@@ -15,7 +15,10 @@ BENCHES = {
     'timing': ('push_bringup.bench.timing', 'the quadratic programs of a lap by several solvers'),
     'realtime': ('push_bringup.bench.realtime', "the paper's rows by the clock, and in process"),
     'stopping': ('push_bringup.bench.stopping', 'how long a cell takes to end after Ctrl-C'),
-    'results': ('push_bringup.bench.results', 'all that concerns the controllers, into one file'),
+    'results': (
+        'push_bringup.results.results',
+        'those of the controllers, into docs/results.md',
+    ),
 }
 
 

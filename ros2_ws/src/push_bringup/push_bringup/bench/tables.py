@@ -1,0 +1,185 @@
+"""What the benchmarks found as Markdown tables, from the object that `--json` prints."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+Found: TypeAlias = Mapping[str, Any]
+"""The JSON object of a benchmark."""
+
+
+def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A table of cells as Markdown, which ends its last line."""
+    lines = [_line(heads), '|' + '---|' * len(heads), *map(_line, rows)]
+    return '\n'.join(lines) + '\n'
+
+
+def paper_rows(found: Found) -> str:
+    """The table of `bench table`."""
+    heads = ('profile', 'track', 'speed', 'perturbation', 'controller', 'laps', 'median')
+    return markdown_table(
+        (*heads, 'spread', 'paper'),
+        (
+            (
+                row['profile'],
+                *_experiment(row),
+                row['controller'],
+                f'{row["completed"]} of {row["seeds"]}',
+                *(_millimetres(row[key]) for key in ('median_mm', 'spread_mm', 'paper_mm')),
+            )
+            for row in found['rows']
+        ),
+    )
+
+
+def size_rows(found: Found) -> str:
+    """The table of `bench data`, and the analytical controller's lap below it."""
+    table = markdown_table(
+        ('pushes', 'choice', 'mean function', 'completed', 'median', 'quartiles'),
+        (
+            (
+                row['n'],
+                row['choice'],
+                row['mean_function'],
+                f'{row["completed"]} of {row["draws"]}',
+                _millimetres(row['median_mm']),
+                ' … '.join(f'{value:.2f}' for value in row['quartiles_mm'] or ()) + ' mm'
+                if row['quartiles_mm']
+                else '–',
+            )
+            for row in found['points']
+        ),
+    )
+    lap = found['analytical']
+    ended = 'completed' if lap['completed'] else lap['stop_reason']
+    return f'{table}\nanalytical controller: {_millimetres(lap["mean_mm"])}, {ended}\n'
+
+
+def ablation_rows(found: Found) -> str:
+    """The table of `bench ablation`: median error, and the laps where not all were completed.
+
+    The last column is the change of the command from tick to tick in the first experiment.
+    """
+    names = [experiment_name(one) for one in found['experiments']]
+    return markdown_table(
+        ('controller', *names, 'command step'),
+        (
+            (
+                row['variant'],
+                *map(_ablation_cell, row['median_mm'], row['completed'], row['seeds']),
+                f'{row["command_step_mm_s"]:.0f} mm/s',
+            )
+            for row in found['rows']
+        ),
+    )
+
+
+def _ablation_cell(error: float | None, completed: int, seeds: int) -> str:
+    text = 'never tracked' if error is None else _millimetres(error)
+    return text if completed == seeds else f'{text} ({completed} of {seeds} laps)'
+
+
+def solver_rows(found: Found) -> str:
+    """The table of `bench timing`."""
+    return markdown_table(
+        ('solver', 'p50', 'p99', 'p99.9', 'max', 'iterations', 'first input'),
+        (
+            (
+                row['name'],
+                *(f'{row[key]:.2f} ms' for key in ('p50_ms', 'p99_ms', 'p999_ms', 'max_ms')),
+                row['iterations_max'],
+                f'{row["first_input_error_m_s"]:.1e} m/s',
+            )
+            for row in found['solvers']
+        ),
+    )
+
+
+def real_time_rows(found: Found) -> str:
+    """The table of `bench realtime`."""
+    heads = ('track', 'speed', 'perturbation', 'controller', 'laps', 'in process', 'real time')
+    return markdown_table(
+        (*heads, 'ratio', 'late commands'),
+        (
+            (
+                *_experiment(row),
+                row['controller'],
+                f'{row["completed"]} of {row["runs"]}',
+                _millimetres(row['in_process_mm']),
+                _millimetres(row['real_time_mm']),
+                f'{row["ratio"]:.2f}',
+                row['deadline_misses'],
+            )
+            for row in found['rows']
+        ),
+    )
+
+
+def time_ranges(found: Found) -> str:
+    """The times of the runs of `bench realtime`: smallest to largest of the runs [ms]."""
+    columns = [
+        ('solve p50', 'solve_ms', 'p50'),
+        ('p99', 'solve_ms', 'p99'),
+        ('max', 'solve_ms', 'max'),
+        ('tick p99', 'tick_ms', 'p99'),
+        ('pose to command p50', 'pose_to_command_ms', 'p50'),
+        ('p99', 'pose_to_command_ms', 'p99'),
+        ('max', 'pose_to_command_ms', 'max'),
+    ]
+    return markdown_table(
+        ('controller', 'laps', *(head for head, _, _ in columns)),
+        (
+            (row['controller'], row['runs'], *(_range(row[name][key]) for _, name, key in columns))
+            for row in found['times']
+        ),
+    )
+
+
+def library_rows(found: Found) -> str:
+    """The table of `bench model`."""
+    return markdown_table(
+        ('library', 'fit', '35 means and Jacobians', 'memory', 'log likelihood', 'NMSE'),
+        (
+            (
+                row['name'],
+                f'{row["fit_s"]:.2f} s',
+                f'{row["predict_ms"]:.2f} ms',
+                f'{row["memory_mb"]:.0f} MB',
+                f'{row["log_likelihood"]:.2f}',
+                f'{row["nmse_push_frame"]:.4f}',
+            )
+            for row in found['rivals']
+        ),
+    )
+
+
+TABLES: Mapping[str, Callable[[Found], str]] = {
+    'table': paper_rows,
+    'data': size_rows,
+    'ablation': ablation_rows,
+    'timing': solver_rows,
+    'realtime': real_time_rows,
+    'model': library_rows,
+}
+"""Word after `bench`, to the table of what it found."""
+
+
+def experiment_name(row: Mapping[str, Any]) -> str:
+    """Track, speed and perturbation for a head, such as 'eight 80 mm/s, normal'."""
+    track, speed, perturbation = _experiment(row)
+    return f'{track} {speed}' + ('' if perturbation == 'none' else f', {perturbation}')
+
+
+def _experiment(row: Mapping[str, Any]) -> tuple[str, str, str]:
+    return row['track'], f'{1e3 * row["speed_m_s"]:.0f} mm/s', row['perturbation']
+
+
+def _millimetres(value: float | None) -> str:
+    return '–' if value is None else f'{value:.2f} mm'
+
+
+def _range(pair: Sequence[float]) -> str:
+    return f'{pair[0]:.2f}–{pair[1]:.2f}'
+
+
+def _line(cells: Sequence[object]) -> str:
+    return '| ' + ' | '.join(map(str, cells)) + ' |'

@@ -1,0 +1,81 @@
+"""The figures that documents quote, by name."""
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+Figure: TypeAlias = float | int
+Named: TypeAlias = Iterator[tuple[str, Figure | None]]
+
+
+def figures(sections: Mapping[str, Mapping[str, Any]]) -> dict[str, Figure]:
+    """All figures of the sections of results.json by name; errors in mm, times in ms.
+
+    Names: `eight_80_gp` (median error of the paper's row, profile irb120), `harsh_eight_80_gp`
+    (another profile), `without_delay_prediction_eight_80` (ablation),
+    `training_size_200_zero_random`, `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`.
+    """
+    found: dict[str, Figure] = {}
+    for name, section in sections.items():
+        for figure, value in _FIGURES[name](name, section['found']):
+            if value is not None:
+                found[figure] = value
+    return found
+
+
+def _paper_rows(section: str, found: Mapping[str, Any]) -> Named:
+    yield f'{section}_laps', sum(row['seeds'] for row in found['rows'])
+    yield f'{section}_completed', sum(row['completed'] for row in found['rows'])
+    for row in found['rows']:
+        prefix = '' if row['profile'] == 'irb120' else f'{row["profile"]}_'
+        yield f'{prefix}{_experiment(row)}_{row["controller"]}', row['median_mm']
+
+
+def _sizes(section: str, found: Mapping[str, Any]) -> Named:
+    for row in found['points']:
+        name = f'{section}_{row["n"]}_{row["mean_function"]}_{row["choice"]}'
+        yield name, row['median_mm']
+
+
+def _ablation(_section: str, found: Mapping[str, Any]) -> Named:
+    for row in found['rows']:
+        variant = _word(row['variant'])
+        yield f'{variant}_command_step', row['command_step_mm_s']
+        for experiment, error in zip(found['experiments'], row['median_mm'], strict=True):
+            yield f'{variant}_{_experiment(experiment)}', error
+
+
+def _solvers(section: str, found: Mapping[str, Any]) -> Named:
+    for row in found['solvers']:
+        for key in ('p50', 'p99', 'max'):
+            yield f'{section}_{_word(row["name"])}_{key}', row[f'{key}_ms']
+
+
+def _real_time(section: str, found: Mapping[str, Any]) -> Named:
+    rows = found['rows']
+    for row in rows:
+        yield f'{section}_{_experiment(row)}_{row["controller"]}', row['real_time_mm']
+    yield f'{section}_laps', sum(row['runs'] for row in rows)
+    yield f'{section}_late_commands', sum(row['deadline_misses'] for row in rows)
+    yield f'{section}_largest_deviation_percent', 100 * max(abs(row['ratio'] - 1) for row in rows)
+
+
+_FIGURES = {
+    'table': _paper_rows,
+    'harsh': _paper_rows,
+    'measured': _sizes,
+    'training_size': _sizes,
+    'ablation': _ablation,
+    'solver_gp': _solvers,
+    'solver_analytical': _solvers,
+    'real_time': _real_time,
+}
+
+
+def _experiment(row: Mapping[str, Any]) -> str:
+    name = f'{row["track"]}_{1e3 * row["speed_m_s"]:.0f}'
+    return name if row['perturbation'] == 'none' else f'{name}_{row["perturbation"]}'
+
+
+def _word(text: str) -> str:
+    return re.sub(r'[^a-z0-9]+', '_', text.lower()).strip('_')

@@ -1,0 +1,92 @@
+"""The sections of docs/results.md: the benchmark of each, its options and its introduction."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Section:
+    """One benchmark and its place in the page.
+
+    Attributes:
+        name: its key in results.json.
+        title: its heading.
+        text: what to know before the table.
+        bench: word after `bench`.
+        options: of the command; `{seeds}` and the like stand for options of `bench results`.
+    """
+
+    name: str
+    title: str
+    text: str
+    bench: str
+    options: tuple[str, ...]
+
+
+SECTIONS = (
+    Section(
+        'table',
+        "The paper's table",
+        'Next to the errors of the real robot in the paper. `irb120` has the measured lag of the '
+        'robot and the noise of its cameras, `ideal` neither. One set of parameters for all rows.',
+        'table',
+        ('--profile', 'irb120', 'ideal', '--seeds', '{seeds}'),
+    ),
+    Section(
+        'harsh',
+        'A harsh cell',
+        'The same rows with the profile `harsh`: an uneven table, six times the noise, latency, '
+        'jitter, lost images and commands (docs/worlds.md).',
+        'table',
+        ('--profile', 'harsh', '--controllers', 'gp', '--seeds', '{seeds}'),
+    ),
+    Section(
+        'measured',
+        'Trained on measured pushes',
+        'The same lap with models of pushes that were measured on the real object. The plant is '
+        'calibrated to the same pushes.',
+        'data',
+        ('--data', '{measured}', '--points', '10', '50', '200', '--draws', '{draws}'),
+    ),
+    Section(
+        'training_size',
+        'Training size',
+        'The 8-track at 80 mm/s, profile `irb120`, with models of nested random draws from 10 000 '
+        'simulated pushes and of the five pushes of a die. The paper: about 14 mm with 10 pushes, '
+        'unstable with fewer random ones, 9 mm with the die in four laps of five, level with the '
+        'analytical controller from about 200 on.',
+        'data',
+        ('--draws', '{draws}'),
+    ),
+    Section(
+        'ablation',
+        'What each part is worth',
+        'The GP controller with parts switched off, profile `irb120`. `preset paper` has the '
+        'literal weights, horizon and plan of the paper; control.md says why they do not track. '
+        'The last column is the rms change of the commanded velocity from tick to tick, on the '
+        'eight at 80 mm/s.',
+        'ablation',
+        ('--seeds', '1'),
+    ),
+    Section(
+        'solver_gp',
+        'The QP solver: GP controller',
+        'All QPs of a lap with kicks: update and solve, CPU time of one thread.',
+        'timing',
+        ('--controller', 'gp'),
+    ),
+    Section(
+        'solver_analytical',
+        'The QP solver: Family of Modes',
+        'Three QPs in each tick; their times add up.',
+        'timing',
+        ('--controller', 'analytical'),
+    ),
+    Section(
+        'real_time',
+        'In real time',
+        'The node graph over DDS, recorded, next to the same laps in process; medians. On a host '
+        'that takes the cores away commands are late, and after 0.5 s without a pose a lap ends.',
+        'realtime',
+        ('--runs', '{runs}'),
+    ),
+)
