@@ -19,11 +19,12 @@ from push_sim.node.node_settings import node_settings
 from push_sim.plant.sensor import Observation
 
 Lap = Callable[..., tuple[bool, float]]
+LARGEST_ERROR = 0.6e-3  # [m], 1.8 times `eight_80_gp` of docs/results.json
 
 
 @pytest.fixture(scope='module')
 def model() -> GpModel:
-    """What 200 pushes in the simulator teach."""
+    """Trained on 200 simulated pushes."""
     return train(collect_pushes(200, 0))
 
 
@@ -50,13 +51,13 @@ def lap(model: GpModel) -> Lap:
     return run
 
 
-def test_a_learned_model_gets_round_within_4_mm(lap: Lap) -> None:
+def test_a_learned_model_gets_round_about_as_well_as_published(lap: Lap) -> None:
     done, error = lap()
     assert done
-    assert error < 4.0e-3
+    assert error < LARGEST_ERROR
 
 
-def test_without_delay_compensation_it_fails_or_errs_at_least_twice_as_much(lap: Lap) -> None:
+def test_without_delay_compensation_it_errs_ten_times_as_much(lap: Lap) -> None:
     _, with_compensation = lap()
-    done, without = lap(delay_compensation=False)
-    assert not done or without >= 2.0 * with_compensation
+    _, without = lap(delay_compensation=False)
+    assert without >= 10.0 * with_compensation

@@ -38,7 +38,7 @@ def with_error(millimetres: float, completed: bool = True) -> Lap:
 def test_a_lap_is_judged_by_its_error_and_its_end() -> None:
     lap = pushed(JOB)
     assert lap.completed
-    assert 0.0 < lap.mean_mm < 4.0
+    assert 0.0 < lap.mean_mm < 0.12
     assert lap.mean_mm < lap.max_mm
     assert lap.path_mm[-1][0] == pytest.approx(500.0, abs=10.0)
 

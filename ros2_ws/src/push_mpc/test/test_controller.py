@@ -39,7 +39,7 @@ def test_it_follows_the_plan_with_the_lag_of_the_robot(tracking) -> None:
         tick = tracking.tick()
         reference, _ = tracking.controller.plan.at(tick.reference_time)
         errors.append(math.hypot(*(tick.state[:2] - reference[:2])))
-    assert np.mean(errors) < 5e-3
+    assert np.mean(errors) < 0.4e-3
     assert tick.mode == Mode.TRACKING
 
 
