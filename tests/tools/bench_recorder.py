@@ -71,7 +71,7 @@ def _load(publisher: Publisher, folder: Path, arguments: argparse.Namespace) -> 
         recorder.stop()
     seen = Traffic()
     for record in BagReader(folder).records(['/load']):
-        seen.saw(record.sequence, record.log_ns)
+        seen.add(record.sequence, record.log_ns)
     sent = publisher.sent['load']
     return (
         f'load: {rate:.0f} messages/s of 1 KB; {sent} published, {seen.received} recorded, '

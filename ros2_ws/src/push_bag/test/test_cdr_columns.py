@@ -85,5 +85,5 @@ def test_bytes_of_another_type_are_refused(spoil):
 def test_a_schema_that_contains_itself_or_lacks_a_part_is_refused():
     with pytest.raises(InputError, match='contains itself'):
         leaves('Loop a\n' + '=' * 80 + '\nMSG: a_msgs/Loop\nLoop again\n', 'a_msgs')
-    with pytest.raises(InputError, match='does not describe'):
+    with pytest.raises(InputError, match='does not define'):
         leaves('std_msgs/Header header\n', 'a_msgs')

@@ -191,7 +191,7 @@ def test_a_killed_recording_is_recovered_without_a_hole(cell, start, tmp_path):
 @pytest.mark.parametrize(
     ('settings', 'reason'),
     [
-        ({'folder': '/dev/null/run'}, 'cannot be made: Not a directory'),
+        ({'folder': '/dev/null/run'}, 'cannot be created: Not a directory'),
         ({}, 'name the new folder'),
         ({'facts_file': 'none.json'}, 'No such file'),
         ({'facts_file': __file__}, 'is not JSON'),

@@ -9,7 +9,7 @@ from push_bag.file.traffic import Traffic, lost_text
 def counted(sequences):
     traffic = Traffic()
     for number, sequence in enumerate(sequences):
-        traffic.saw(sequence, (number + 1) * 100_000_000)
+        traffic.add(sequence, (number + 1) * 100_000_000)
     return traffic
 
 
@@ -87,5 +87,5 @@ def test_the_text_counts_sent_messages():
 def test_the_longest_gap_is_between_two_messages_however_the_poll_mixed_them_up():
     traffic = Traffic()
     for number, log_ns in enumerate([100, 300, 200, 350, 900], 1):
-        traffic.saw(number, log_ns)
+        traffic.add(number, log_ns)
     assert (traffic.longest_ns, traffic.first_ns, traffic.last_ns) == (550, 100, 900)

@@ -24,7 +24,7 @@ def bag_text(reader: BagReader) -> str:
     """
     traffic: dict[str, Traffic] = {}
     for record in reader.records():
-        traffic.setdefault(record.topic.name, Traffic()).saw(record.sequence, record.log_ns)
+        traffic.setdefault(record.topic.name, Traffic()).add(record.sequence, record.log_ns)
     lines = [f'{reader.path}: {_duration(traffic):.2f} s, {_ending(reader)}', '']
     lines += _topic_lines(reader, traffic)
     lines += ['', lost_text(traffic), '']

@@ -1,4 +1,4 @@
-"""A bag that is made of something that stays there: it becomes whole, or it is not left behind."""
+"""Writes a bag completely or not at all, for bags that can be written again from their source."""
 
 import shutil
 from collections.abc import Iterator, Mapping
@@ -14,10 +14,10 @@ from push_bag.file.bag_writer import BagWriter
 def atomic_bag(
     folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
 ) -> Iterator[BagWriter]:
-    """A writer whose folder goes away again when anything goes wrong; see `BagWriter`.
+    """A `BagWriter` whose new folder is removed if an error is raised.
 
     Raises:
-        InputError: the folder exists already or cannot be made.
+        InputError: the folder exists already or cannot be created.
         RunError: the bag cannot be written.
     """
     was_there = folder.exists()

@@ -1,4 +1,4 @@
-"""What the records of a bag say of it: topics, facts, attachments, and how much it should hold."""
+"""Topics, facts, attachments and message counts of a bag, collected from its records."""
 
 import json
 import struct
@@ -16,16 +16,16 @@ from push_bag.file.topic_registry import Topic
 
 
 class BagContents:
-    """Takes notes while the records of a bag go by.
+    """What a bag states about itself, filled record by record.
 
     Attributes:
-        topics: by the number of their channel.
+        topics: by channel number.
         facts: of the run.
-        attachments: whole files by name.
-        finished: whether the file came to its proper end.
-        counts: what the recorder received and lost by topic, as it wrote it down.
-        middleware_lost: messages by topic of which the middleware told the recorder.
-        statistics: what the file says it holds; None where it does not say.
+        attachments: files by name.
+        finished: whether the file has its footer.
+        counts: received and lost messages by topic, as the recorder wrote them (JSON).
+        middleware_lost: messages by topic that the middleware reported as lost.
+        statistics: the file's statistics record; None where it has none.
     """
 
     def __init__(self) -> None:
@@ -37,34 +37,34 @@ class BagContents:
         self.middleware_lost: dict[str, int] = {}
         self.statistics: Statistics | None = None
         self._schemas: dict[int, Schema] = {}
-        self._note: dict[int, Callable[[ReadDataStream], None]] = {
-            Opcode.SCHEMA: self._note_schema,
-            Opcode.CHANNEL: self._note_channel,
-            Opcode.METADATA: self._note_metadata,
-            Opcode.ATTACHMENT: self._note_attachment,
-            Opcode.STATISTICS: self._note_statistics,
-            Opcode.FOOTER: self._note_end,
+        self._readers: dict[int, Callable[[ReadDataStream], None]] = {
+            Opcode.SCHEMA: self._read_schema,
+            Opcode.CHANNEL: self._read_channel,
+            Opcode.METADATA: self._read_metadata,
+            Opcode.ATTACHMENT: self._read_attachment,
+            Opcode.STATISTICS: self._read_statistics,
+            Opcode.FOOTER: self._read_footer,
         }
 
-    def note(self, record: RawRecord) -> None:
-        """Remembers what a record says; a record of another kind says nothing.
+    def add(self, record: RawRecord) -> None:
+        """Reads a record; messages and indices are ignored.
 
         Raises:
-            DamagedError: it cannot be read.
+            DamagedError: the record cannot be parsed.
         """
-        note = self._note.get(record.opcode)
-        if note is None:
+        read = self._readers.get(record.opcode)
+        if read is None:
             return
         try:
-            note(ReadDataStream(BytesIO(record.body)))
+            read(ReadDataStream(BytesIO(record.body)))
         except (McapError, ValueError, KeyError, TypeError, struct.error) as error:
             raise DamagedError(f'a record is not readable ({error})') from None
 
-    def _note_schema(self, body: ReadDataStream) -> None:
+    def _read_schema(self, body: ReadDataStream) -> None:
         schema = Schema.read(body)
         self._schemas.setdefault(schema.id, schema)
 
-    def _note_channel(self, body: ReadDataStream) -> None:
+    def _read_channel(self, body: ReadDataStream) -> None:
         channel = Channel.read(body)
         if channel.id in self.topics:
             return
@@ -77,26 +77,26 @@ class BagContents:
             schema.data.decode('utf-8', 'replace') if schema else '',
         )
 
-    def _note_metadata(self, body: ReadDataStream) -> None:
+    def _read_metadata(self, body: ReadDataStream) -> None:
         metadata = Metadata.read(body)
         if metadata.name == FACTS_RECORD:
             self.facts = dict(metadata.metadata)
         elif metadata.name == COUNTS_RECORD:
-            self._note_counts(metadata.metadata)
+            self._read_counts(metadata.metadata)
 
-    def _note_counts(self, counts: dict[str, str]) -> None:
-        told = {topic: json.loads(text)['middleware_lost'] for topic, text in counts.items()}
+    def _read_counts(self, counts: dict[str, str]) -> None:
+        stated = {topic: json.loads(text)['middleware_lost'] for topic, text in counts.items()}
         self.middleware_lost = {
-            topic: int(lost) for topic, lost in told.items() if lost is not None
+            topic: int(lost) for topic, lost in stated.items() if lost is not None
         }
         self.counts = dict(counts)
 
-    def _note_attachment(self, body: ReadDataStream) -> None:
+    def _read_attachment(self, body: ReadDataStream) -> None:
         attachment = Attachment.read(body)
         self.attachments[attachment.name] = attachment.data
 
-    def _note_statistics(self, body: ReadDataStream) -> None:
+    def _read_statistics(self, body: ReadDataStream) -> None:
         self.statistics = Statistics.read(body)
 
-    def _note_end(self, _body: ReadDataStream) -> None:
+    def _read_footer(self, _body: ReadDataStream) -> None:
         self.finished = True

@@ -1,4 +1,4 @@
-"""Writes one run to an MCAP bag that rosbag2, Foxglove and the like read."""
+"""Writes a run to an MCAP bag that rosbag2 and Foxglove can read."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -13,17 +13,17 @@ from push_bag.file.message_types import Definition, installed_definition
 from push_bag.file.rosbag2_metadata import Span, write_metadata
 from push_bag.file.topic_registry import Topic, TopicRegistry
 
-CHUNK_BYTES = 64 * 1024  # what a kill can lose, and how long a write can block
+CHUNK_BYTES = 64 * 1024  # bounds what a kill can lose and how long a write can block
 FACTS_RECORD = 'run'
-COUNTS_RECORD = 'recording'  # what the recorder received and lost, written last
+COUNTS_RECORD = 'recording'  # received and lost messages, written last
 LARGEST_SEQUENCE = 0xFFFFFFFF
 
 
 class BagWriter:
     """A run folder with one MCAP file, open for writing.
 
-    Facts and attachments come first in the file, so that a run that was cut short still says how
-    it was made. A write error (a full disk) ends the recording; what was written stays readable.
+    Facts and attachments are written first, so that a recording that is cut short has them. After
+    a write error (a full disk) the bag is closed; what was written stays readable.
     Use it as a context manager or call `close`.
 
     Attributes:
@@ -39,10 +39,10 @@ class BagWriter:
         Args:
             folder: of the run; must not exist yet.
             facts: of the run (profile, seed, mode, versions …).
-            attachments: whole files to keep, by name.
+            attachments: contents of files by name.
 
         Raises:
-            InputError: the folder exists already or cannot be made.
+            InputError: the folder exists already or cannot be created.
             RunError: the file cannot be written.
         """
         self.folder = _new_folder(folder)
@@ -58,7 +58,7 @@ class BagWriter:
 
     @property
     def is_open(self) -> bool:
-        """Whether it takes messages: not closed, and no write has failed."""
+        """Whether messages can be written: not closed, and no write has failed."""
         return self._stream is not None
 
     def add_topic(
@@ -73,7 +73,7 @@ class BagWriter:
             definition: of the type; None for the installed one.
 
         Raises:
-            InputError: the type is not installed, or the topic is already there.
+            InputError: the type is not installed, or the topic was added before.
             RunError: the file cannot be written.
         """
         if name in self.counts:
@@ -93,10 +93,10 @@ class BagWriter:
             data: CDR with its 4-byte header.
             log_ns: when it was received [ns].
             publish_ns: when it was published [ns].
-            sequence: the publisher's number of it, from 1; 0 where unknown.
+            sequence: number by its publisher, from 1; 0 where unknown.
 
         Raises:
-            RunError: the file cannot be written; the recording has ended.
+            RunError: the file cannot be written, and is closed.
         """
         channel = self._registry.channel(name)
         number = sequence & LARGEST_SEQUENCE
@@ -105,24 +105,28 @@ class BagWriter:
         self._first_ns = log_ns if self._first_ns is None else min(log_ns, self._first_ns)
         self._last_ns = max(log_ns, self._last_ns)
 
-    def note(self, name: str, facts: Mapping[str, str]) -> None:
-        """Writes down some facts where the file is now.
+    def add_facts(self, name: str, facts: Mapping[str, str]) -> None:
+        """Writes a metadata record at the current place of the file.
+
+        Args:
+            name: of the record.
+            facts: its values.
 
         Raises:
-            RunError: the file cannot be written; the recording has ended.
+            RunError: the file cannot be written, and is closed.
         """
         self._attempt(lambda: self._writer.add_metadata(name, dict(facts)))
 
     def flush(self) -> None:
-        """Hands everything written so far to the operating system, as a whole chunk.
+        """Ends the current chunk and hands it to the operating system.
 
         Raises:
-            RunError: the file cannot be written; the recording has ended.
+            RunError: the file cannot be written, and is closed.
         """
         self._attempt(self._writer.flush)
 
     def close(self) -> None:
-        """Finishes the file, then writes `metadata.yaml`; a second call does nothing.
+        """Writes index and footer, then `metadata.yaml`; a second call does nothing.
 
         Raises:
             RunError: the file cannot be written.
@@ -186,7 +190,7 @@ class BagWriter:
         try:
             self._close_stream()
         except OSError:
-            # closing flushes once more; the disk that refused the data refuses this too
+            # closing flushes again, which fails for the same reason
             return
 
 
@@ -197,7 +201,7 @@ def _new_folder(folder: Path) -> Path:
     except FileExistsError:
         raise InputError(f'{folder} exists already; name a new folder') from None
     except OSError as error:
-        raise InputError(f'{folder} cannot be made: {error.strerror}') from None
+        raise InputError(f'{folder} cannot be created: {error.strerror}') from None
     return folder
 
 
@@ -206,4 +210,4 @@ def _new_file(path: Path) -> IO[bytes]:
         return path.open('wb')
     except OSError as error:
         path.parent.rmdir()
-        raise InputError(f'{path} cannot be made: {error.strerror}') from None
+        raise InputError(f'{path} cannot be created: {error.strerror}') from None

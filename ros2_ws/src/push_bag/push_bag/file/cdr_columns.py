@@ -1,9 +1,9 @@
-"""Decodes many messages of one type at once, field by field, into arrays.
+"""Decodes fields of many messages of one type into arrays.
 
-CDR gives a field the same place in every message as long as the texts before it are equally long.
-So messages are grouped by length, a group becomes a matrix of bytes, and a field is a slice of
-columns; where a text's length differs, the group is split. This takes about a fiftieth of the time
-of decoding message by message.
+In CDR a field has the same offset in every message in which the strings before it have the same
+lengths. So messages of equal length form a matrix of bytes (n, length), and a field is a slice of
+its columns; where a string's length differs, the matrix is split by rows. 18 to 77 times as fast
+as deserializing message by message with rclpy.
 """
 
 from collections.abc import Collection, Sequence
@@ -17,83 +17,85 @@ from push_bag.file.cdr_layout import Leaf
 Columns: TypeAlias = dict[str, NDArray[Any]]
 Rows: TypeAlias = NDArray[np.intp]
 _LITTLE_ENDIAN_CDR = (0, 1)
-_HEADER = 4  # bytes before the first field; alignment counts from here
+_HEADER = 4  # bytes before the first field; alignment is relative to its end
 
 
-def columns(messages: Sequence[bytes], layout: Sequence[Leaf], wanted: Collection[str]) -> Columns:
-    """Some fields of all messages.
+def columns(messages: Sequence[bytes], layout: Sequence[Leaf], names: Collection[str]) -> Columns:
+    """Decodes the named fields of all messages.
 
     Args:
-        messages: CDR with its 4-byte header, all of one type.
+        messages: n messages of one type: CDR with its 4-byte header.
         layout: fields of the type, see `cdr_layout.leaves`.
-        wanted: names of the fields to decode; none behind one without a fixed size.
+        names: fields to decode; none of them may follow a field without a fixed size.
 
     Returns:
-        By name, (n,) or (n, count), or (n,) texts.
+        Arrays by name: numbers (n,) or (n, count), or strings (n,).
 
     Raises:
-        ValueError: bytes that are not messages of this type.
+        ValueError: the bytes are not messages of this type.
     """
-    last = max(index for index, leaf in enumerate(layout) if leaf.name in wanted)
-    decoder = _Decoder(layout[: last + 1], wanted, len(messages))
+    last = max(index for index, leaf in enumerate(layout) if leaf.name in names)
+    decoder = _Decoder(layout[: last + 1], names, len(messages))
     lengths = np.fromiter(map(len, messages), np.intp, len(messages))
     for length in np.unique(lengths):
         rows = np.flatnonzero(lengths == length)
         joined = b''.join(messages[row] for row in rows.tolist())
-        decoder.group(np.frombuffer(joined, np.uint8).reshape(rows.size, int(length)), rows)
-    return decoder.found
+        decoder.add(np.frombuffer(joined, np.uint8).reshape(rows.size, int(length)), rows)
+    return decoder.columns
 
 
 class _Decoder:
-    """Fills the columns, group by group."""
+    """Fills the columns."""
 
-    def __init__(self, layout: Sequence[Leaf], wanted: Collection[str], size: int) -> None:
+    def __init__(self, layout: Sequence[Leaf], names: Collection[str], size: int) -> None:
         self._layout = layout
-        self.found: Columns = {
-            leaf.name: _empty(leaf, size) for leaf in layout if leaf.name in wanted
+        self.columns: Columns = {
+            leaf.name: _empty(leaf, size) for leaf in layout if leaf.name in names
         }
 
-    def group(self, matrix: NDArray[np.uint8], rows: Rows) -> None:
-        """Decodes messages (n, length) of equal length into rows (n,)."""
+    def add(self, matrix: NDArray[np.uint8], rows: Rows) -> None:
+        """Decodes messages of equal length (n, length) into the rows (n,) of the columns."""
         if matrix.shape[1] < _HEADER or np.any(matrix[:, :2] != _LITTLE_ENDIAN_CDR):
             raise ValueError('not little-endian CDR')
-        self._from(0, matrix[:, _HEADER:], rows, 0)
+        self._decode_from(0, matrix[:, _HEADER:], rows, 0)
 
-    def _from(self, index: int, matrix: NDArray[np.uint8], rows: Rows, at: int) -> None:
-        """Decodes all fields from one on, which begins at a byte or after padding."""
+    def _decode_from(self, index: int, matrix: NDArray[np.uint8], rows: Rows, at: int) -> None:
+        """Decodes the fields from an index on; the first is at an offset, plus padding."""
         for number in range(index, len(self._layout)):
             leaf = self._layout[number]
             if leaf.dtype == 'str':
-                self._from_text(number, matrix, rows, at)
+                self._decode_string_from(number, matrix, rows, at)
                 return
-            at = self._number(leaf, matrix, rows, at)
+            at = self._decode_number(leaf, matrix, rows, at)
 
-    def _number(self, leaf: Leaf, matrix: NDArray[np.uint8], rows: Rows, at: int) -> int:
+    def _decode_number(self, leaf: Leaf, matrix: NDArray[np.uint8], rows: Rows, at: int) -> int:
         if not leaf.dtype:
             raise ValueError(f'{leaf.name} has no fixed size')
         size = np.dtype(leaf.dtype).itemsize
         at += -at % size
         values = _view(matrix, at, leaf.dtype, leaf.count)
-        if leaf.name in self.found:
-            self.found[leaf.name][rows] = values if leaf.count > 1 else values[:, 0]
+        if leaf.name in self.columns:
+            self.columns[leaf.name][rows] = values if leaf.count > 1 else values[:, 0]
         return at + size * leaf.count
 
-    def _from_text(self, index: int, matrix: NDArray[np.uint8], rows: Rows, at: int) -> None:
-        """Decodes a text and all behind it, for each length of the text by itself."""
+    def _decode_string_from(
+        self, index: int, matrix: NDArray[np.uint8], rows: Rows, at: int
+    ) -> None:
+        """Decodes a string and the fields after it, separately for each length of the string."""
         at += -at % 4
         lengths = _view(matrix, at, '<u4', 1)[:, 0]
         for length in np.unique(lengths):
             here = lengths == length
             begin, end = at + 4, at + 4 + int(length)
             if end > matrix.shape[1]:
-                raise ValueError('a text is longer than its message')
-            self._text(self._layout[index], matrix[here, begin:end], rows[here])
-            self._from(index + 1, matrix[here], rows[here], end)
+                raise ValueError('a string is longer than its message')
+            self._decode_text(self._layout[index], matrix[here, begin:end], rows[here])
+            self._decode_from(index + 1, matrix[here], rows[here], end)
 
-    def _text(self, leaf: Leaf, matrix: NDArray[np.uint8], rows: Rows) -> None:
-        if leaf.name in self.found:
+    def _decode_text(self, leaf: Leaf, matrix: NDArray[np.uint8], rows: Rows) -> None:
+        if leaf.name in self.columns:
             texts = [bytes(row).rstrip(b'\0').decode('utf-8', 'replace') for row in matrix]
-            self.found[leaf.name][rows] = texts
+            self.columns[leaf.name][rows] = texts
 
 
 def _empty(leaf: Leaf, size: int) -> NDArray[Any]:
@@ -105,7 +107,7 @@ def _empty(leaf: Leaf, size: int) -> NDArray[Any]:
 
 
 def _view(matrix: NDArray[np.uint8], at: int, dtype: str, count: int) -> NDArray[Any]:
-    """Numbers (n, count) that begin at a byte of each message."""
+    """Numbers (n, count) at an offset of each message."""
     end = at + np.dtype(dtype).itemsize * count
     if end > matrix.shape[1]:
         raise ValueError('a message is too short')

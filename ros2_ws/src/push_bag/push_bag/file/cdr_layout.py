@@ -1,4 +1,4 @@
-"""The fields of a message type in the order in which CDR writes them, from its schema text."""
+"""The fields of a message type in the order of CDR, parsed from its schema."""
 
 import re
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ DTYPES = {
     **{f'int{bits}': f'<i{bits // 8}' for bits in (8, 16, 32, 64)},
     **{f'uint{bits}': f'<u{bits // 8}' for bits in (8, 16, 32, 64)},
 }
-DEEPEST = 20  # levels of nesting; a schema that contains itself has no end
-# a constant's name is in upper case
+DEEPEST = 20  # levels of nesting; more means that a type contains itself
+# constants have upper-case names and do not match
 _FIELD = re.compile(
     r'^(?P<base>[A-Za-z]\w*(?:/\w+)*)(?:<=\d+)?(?P<array>\[[^\]]*\])?\s+(?P<name>[a-z]\w*)'
 )
@@ -24,12 +24,12 @@ _FIELD = re.compile(
 
 @dataclass(frozen=True)
 class Leaf:
-    """One field that is no message itself.
+    """A field of primitive type, or an array of unknown size.
 
     Attributes:
-        name: path to it, `header.stamp.sec`.
-        dtype: of numpy; `str` for a text, empty for what has no fixed size and no reader here.
-        count: numbers in it, 1 unless it is a fixed array.
+        name: path in the message, such as `header.stamp.sec`.
+        dtype: of numpy; `str` for a string, empty for a field without a fixed size.
+        count: length of a fixed array, else 1.
     """
 
     name: str
@@ -38,14 +38,14 @@ class Leaf:
 
 
 def leaves(schema: str, package: str) -> list[Leaf]:
-    """All fields of the type that a `ros2msg` schema describes, nested ones by their path.
+    """All primitive fields of a message type, nested ones by their path.
 
     Args:
-        schema: its text.
-        package: of the type itself.
+        schema: `ros2msg` text with the definitions of all nested types.
+        package: of the type.
 
     Raises:
-        InputError: the schema names a type that it does not describe.
+        InputError: a nested type is not defined in the schema, or contains itself.
     """
     main, *others = schema.split(f'\n{SEPARATOR}\n')
     texts = {}
@@ -62,11 +62,11 @@ def _leaves(text: str, package: str, prefix: str, texts: dict[str, str], depth: 
     for line in text.splitlines():
         field = _FIELD.match(line.strip())
         if field is not None:
-            found += _of_field(field, package, prefix, texts, depth)
+            found += _leaves_of(field, package, prefix, texts, depth)
     return found
 
 
-def _of_field(
+def _leaves_of(
     field: 're.Match[str]', package: str, prefix: str, texts: dict[str, str], depth: int
 ) -> list[Leaf]:
     base, array, name = field['base'], field['array'] or '', prefix + field['name']
@@ -80,10 +80,10 @@ def _of_field(
     full = base if '/' in base else f'{package}/{base}'
     nested = texts.get(_two_parts(full))
     if nested is None:
-        raise InputError(f'the bag does not describe the message type {base}')
+        raise InputError(f'the bag does not define the message type {base}')
     return _leaves(nested, full.split('/')[0], f'{name}.', texts, depth + 1)
 
 
 def _two_parts(type_name: str) -> str:
-    """`std_msgs/Header` for `std_msgs/msg/Header`: schemas write it either way."""
+    """`std_msgs/Header` for `std_msgs/msg/Header`; schemas use both forms."""
     return type_name.replace('/msg/', '/')

@@ -16,13 +16,13 @@ import zstandard
 from mcap.opcode import Opcode
 
 MAGIC = b'\x89MCAP0\r\n'
-LARGEST_CHUNK = 64 * 1024 * 1024  # [B] uncompressed; those of rosbag2 and of ours are far smaller
-_OPENING = struct.Struct('<BQ')
+LARGEST_CHUNK = 64 * 1024 * 1024  # [B] uncompressed; rosbag2 and our recorder write less than 1 MB
+_PREFIX = struct.Struct('<BQ')
 _MESSAGE = struct.Struct('<HIQQ')
 _CHUNK = struct.Struct('<QQQI')
 _LENGTH = struct.Struct('<I')
 _LONG_LENGTH = struct.Struct('<Q')
-# what a reader from front to back has no use for
+# not needed when a file is read from front to back
 _INDICES = frozenset(
     (
         Opcode.MESSAGE_INDEX,
@@ -33,7 +33,7 @@ _INDICES = frozenset(
         Opcode.SUMMARY_OFFSET,
     )
 )
-_PRIVATE = 0x80  # opcodes from here on belong to whoever wrote the file
+_PRIVATE = 0x80  # opcodes from here on are private to the program that wrote the file
 
 
 class CutShortError(Exception):
@@ -41,18 +41,18 @@ class CutShortError(Exception):
 
 
 class DamagedError(Exception):
-    """The bytes are not those that were written; the message says what is wrong."""
+    """The file is damaged; the message says where."""
 
 
 class RawRecord(NamedTuple):
-    """A record: what it is, and its bytes without their opening."""
+    """A record: its opcode, and its bytes after opcode and length."""
 
     opcode: int
     body: bytes
 
 
 class RawMessage(NamedTuple):
-    """A message of a chunk; times in ns."""
+    """A message record; times in ns."""
 
     channel: int
     sequence: int
@@ -62,15 +62,15 @@ class RawMessage(NamedTuple):
 
 
 def top_records(stream: IO[bytes], size: int) -> Iterator[RawRecord]:
-    """The records of a file up to its footer, indices left out.
+    """The records of a file up to its footer, without indices.
 
     Args:
-        stream: at the file's beginning.
+        stream: at the beginning of the file.
         size: of the file [B].
 
     Raises:
         CutShortError: the file ends within a record.
-        DamagedError: it does not begin as MCAP does, or has a record of no known kind.
+        DamagedError: the file does not begin as MCAP does, or a record has an unknown opcode.
     """
     magic = stream.read(len(MAGIC))
     if magic != MAGIC[: len(magic)]:
@@ -85,13 +85,13 @@ def top_records(stream: IO[bytes], size: int) -> Iterator[RawRecord]:
 
 
 def _next_record(stream: IO[bytes], size: int) -> RawRecord | None:
-    """The next record, None for one that nobody needs."""
-    opening = stream.read(_OPENING.size)
-    if len(opening) < _OPENING.size:
+    """The next record; None for an index or a private record."""
+    opening = stream.read(_PREFIX.size)
+    if len(opening) < _PREFIX.size:
         raise CutShortError
-    opcode, length = _OPENING.unpack(opening)
+    opcode, length = _PREFIX.unpack(opening)
     if not Opcode.HEADER <= opcode <= Opcode.DATA_END and opcode < _PRIVATE:
-        raise DamagedError(f'no record begins with byte {opcode}')
+        raise DamagedError(f'a record has the unknown opcode {opcode}')
     if stream.tell() + length > size:
         raise CutShortError
     if opcode in _INDICES or opcode >= _PRIVATE:
@@ -101,10 +101,10 @@ def _next_record(stream: IO[bytes], size: int) -> RawRecord | None:
 
 
 def chunk_data(body: bytes) -> bytes:
-    """The records of a chunk, decompressed and verified.
+    """The data of a chunk record, decompressed, its checksum verified.
 
     Raises:
-        DamagedError: they cannot be had from these bytes.
+        DamagedError: sizes, compression or checksum are wrong.
     """
     try:
         _, _, size, checksum = _CHUNK.unpack_from(body)
@@ -116,26 +116,26 @@ def chunk_data(body: bytes) -> bytes:
         raise DamagedError('a chunk is too short') from None
     begin += _LONG_LENGTH.size
     if size > LARGEST_CHUNK or begin + length > len(body):
-        raise DamagedError('a chunk claims more than there is')
+        raise DamagedError('a chunk states a size that it cannot have')
     data = _decompressed(name, body[begin : begin + length], size)
     if len(data) != size or (checksum and zlib.crc32(data) != checksum):
-        raise DamagedError('the checksum of a chunk does not fit')
+        raise DamagedError('the checksum of a chunk is wrong')
     return data
 
 
 def _decompressed(name: bytes, data: bytes, size: int) -> bytes:
     try:
         if name == b'zstd':
-            # a frame that states a size is given all of it, whatever the limit
+            # zstandard allocates the size that a frame states, whatever max_output_size is
             if zstandard.frame_content_size(data) > size:
-                raise DamagedError('a chunk is larger than it says')
+                raise DamagedError('a chunk is larger than it states')
             return zstandard.ZstdDecompressor().decompress(data, max_output_size=size)
         if name == b'lz4':
             return bytes(lz4.frame.LZ4FrameDecompressor().decompress(data, max_length=size))
     except (zstandard.ZstdError, RuntimeError, ValueError, EOFError) as error:
         raise DamagedError(f'a chunk does not decompress: {error}') from None
     if name:
-        raise DamagedError('a chunk is compressed in an unknown way')
+        raise DamagedError('a chunk has an unknown compression')
     return data
 
 
@@ -143,14 +143,14 @@ def chunk_records(data: bytes) -> Iterator[RawMessage | RawRecord]:
     """Messages, schemas and channels of a chunk's data.
 
     Raises:
-        DamagedError: a record goes on beyond the end.
+        DamagedError: a record is longer than the rest of the chunk.
     """
     at, end = 0, len(data)
     while at < end:
-        if end - at < _OPENING.size:
+        if end - at < _PREFIX.size:
             raise DamagedError('a chunk ends within a record')
-        opcode, length = _OPENING.unpack_from(data, at)
-        at += _OPENING.size
+        opcode, length = _PREFIX.unpack_from(data, at)
+        at += _PREFIX.size
         if length > end - at:
             raise DamagedError('a record is longer than its chunk')
         body = data[at : at + length]
@@ -159,10 +159,10 @@ def chunk_records(data: bytes) -> Iterator[RawMessage | RawRecord]:
 
 
 def message(body: bytes) -> RawMessage:
-    """A message from the bytes of its record.
+    """Parses the bytes of a message record.
 
     Raises:
-        DamagedError: they are fewer than a message can have.
+        DamagedError: there are too few bytes.
     """
     if len(body) < _MESSAGE.size:
         raise DamagedError('a message is too short')

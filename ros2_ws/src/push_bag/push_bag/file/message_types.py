@@ -1,4 +1,4 @@
-"""What a bag must know of a message type: its class, its schema text and its type hash."""
+"""Python class, schema text and type hash of installed message types."""
 
 import functools
 import importlib
@@ -17,7 +17,7 @@ PRIMITIVES = INTEGERS | {'bool', 'byte', 'char', 'float32', 'float64', 'string',
 
 
 class Definition(NamedTuple):
-    """What a bag says of a type: its `ros2msg` schema and its REP-2011 hash, empty if unknown."""
+    """A type's `ros2msg` schema, and its REP-2011 hash; the hash is empty if unknown."""
 
     schema: str
     type_hash: str
@@ -53,14 +53,14 @@ def message_class(type_name: str) -> Any:
 
 @functools.cache
 def schema_text(type_name: str) -> str:
-    """The `ros2msg` schema: the type's own text, then that of every type it is made of.
+    """The `ros2msg` schema: the type's own definition, then those of all nested types.
 
     Raises:
         InputError: a definition is not installed.
     """
     sections = [_definition(type_name)]
     sections += [
-        # readers look types up as the fields name them, without the folder
+        # fields name their types without the folder, and readers look them up by that name
         f'MSG: {name.replace("/msg/", "/")}\n{_definition(name)}'
         for name in _dependencies(type_name)
     ]
@@ -69,7 +69,7 @@ def schema_text(type_name: str) -> str:
 
 @functools.cache
 def type_hash(type_name: str) -> str:
-    """The REP-2011 hash of the type, `RIHS01_…`, as the installed ROS states it.
+    """The REP-2011 hash of the type, `RIHS01_…`, from its installed description.
 
     Raises:
         InputError: the type's description is not installed.
@@ -80,7 +80,7 @@ def type_hash(type_name: str) -> str:
 
 
 def _dependencies(type_name: str) -> list[str]:
-    """All types that a type is made of, at any depth, each once, in order of appearance."""
+    """All nested types of a type, at any depth, each once, breadth first."""
     found: list[str] = []
     waiting = _field_types(type_name)
     while waiting:
@@ -92,7 +92,7 @@ def _dependencies(type_name: str) -> list[str]:
 
 
 def _field_types(type_name: str) -> list[str]:
-    """The types of a message's own fields that are messages themselves."""
+    """The message types among the types of a message's own fields."""
     package = _parts(type_name)[0]
     words = (line.split('#')[0].split() for line in _definition(type_name).splitlines())
     bases = [re.split(r'\[|<=', line[0])[0] for line in words if line]
@@ -122,5 +122,5 @@ def _shared_file(type_name: str, suffix: str) -> Path:
 def _parts(type_name: str) -> list[str]:
     parts = type_name.split('/')
     if len(parts) != 3:
-        raise InputError(f'{type_name!r} is no message type such as geometry_msgs/msg/Pose')
+        raise InputError(f'{type_name!r} is not a message type such as geometry_msgs/msg/Pose')
     return parts

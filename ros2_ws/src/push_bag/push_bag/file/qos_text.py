@@ -1,4 +1,4 @@
-"""Quality of service as rosbag2 writes it: a YAML list of profiles, in words."""
+"""QoS profiles to and from the YAML list that rosbag2 stores."""
 
 from enum import Enum
 from typing import Any
@@ -29,11 +29,11 @@ UNREADABLE = (
     *(yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError, OverflowError),
     InvalidQoSProfileException,
 )
-UNKNOWN_DEPTH = 10  # discovery does not tell the depth, so replay takes ROS's default
+UNKNOWN_DEPTH = 10  # discovery does not give the depth, so replay takes the default of ROS
 
 
 def qos_text(profile: QoSProfile) -> str:
-    """A profile as a YAML list of one, for `BagWriter.add_topic`."""
+    """A YAML list with one profile, for `BagWriter.add_topic`."""
     words: dict[str, Any] = {
         name: kind(getattr(profile, name)).name.lower() for name, kind in POLICIES.items()
     }
@@ -46,10 +46,10 @@ def qos_text(profile: QoSProfile) -> str:
 
 
 def qos_profile(text: str) -> QoSProfile:
-    """The first profile of a YAML list; the default profile where the list is empty.
+    """The first profile of a YAML list; a default profile if the list is empty.
 
     Raises:
-        InputError: the text is not rosbag2's list of profiles.
+        InputError: the text is not a list of profiles as rosbag2 writes it.
     """
     try:
         profiles = from_yaml(text) or []

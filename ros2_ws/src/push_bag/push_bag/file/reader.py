@@ -1,4 +1,4 @@
-"""Streams a bag: whole, or cut short before its end."""
+"""Reads the messages of a bag, also of one that was cut short."""
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
@@ -23,7 +23,7 @@ from push_bag.file.topic_registry import Topic
 
 
 class Record(NamedTuple):
-    """One message as it lies in the bag: raw, with its times."""
+    """One serialized message of a bag, with its times [ns] and sequence number."""
 
     topic: Topic
     data: bytes
@@ -32,7 +32,7 @@ class Record(NamedTuple):
     sequence: int
 
     def message(self) -> Any:
-        """The decoded message.
+        """Deserializes the message.
 
         Raises:
             InputError: the type is not installed, or the bytes are not of that type.
@@ -47,16 +47,16 @@ class Record(NamedTuple):
 
 
 class BagReader:
-    """One bag, read from its beginning each time `records` is called.
+    """One bag; each call of `records` reads it from the beginning.
 
     Attributes:
         path: the MCAP file.
-        contents: what the bag says of itself; facts and attachments are complete once the first
-            message was read, topics and the end once all records were.
+        contents: what the bag states about itself. Facts and attachments are complete after the
+            first message, topics and `finished` after the last one.
     """
 
     def __init__(self, path: Path) -> None:
-        """Finds the bag.
+        """Finds the MCAP file; opens it only when it is read.
 
         Args:
             path: a run folder or an MCAP file.
@@ -79,16 +79,16 @@ class BagReader:
 
     @property
     def attachments(self) -> dict[str, bytes]:
-        """Whole files that lie in the bag, by name."""
+        """Attached files by name."""
         return self.contents.attachments
 
     @property
     def finished(self) -> bool:
-        """Whether the file came to its proper end."""
+        """Whether the file has its footer; False if the recording was cut short."""
         return self.contents.finished
 
     def records(self, names: Collection[str] | None = None) -> Iterator[Record]:
-        """All messages in the order of the file, in bounded memory.
+        """All messages in the order of the file; holds one chunk in memory at a time.
 
         Args:
             names: full names of the topics to read; None for all.
@@ -101,7 +101,7 @@ class BagReader:
             for raw in self._unpacked(stream):
                 topic = topics.get(raw.channel)
                 if topic is None:
-                    raise InputError(f'{self.path} is damaged: a message is of no known topic')
+                    raise InputError(f'{self.path} is damaged: a message has an unknown topic')
                 if names is None or topic.name in names:
                     yield Record(topic, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
 
@@ -113,14 +113,14 @@ class BagReader:
                 elif record.opcode == Opcode.MESSAGE:
                     yield message(record.body)
                 else:
-                    self.contents.note(record)
+                    self.contents.add(record)
         except CutShortError:
             if not self.contents.topics:
                 raise InputError(f'{self.path} ends before its first message') from None
         except DamagedError as error:
             raise InputError(
                 f'{self.path} is no bag or is damaged: {error}; '
-                '`push_bag recover` saves what is whole'
+                '`push_bag recover` saves the intact part'
             ) from None
 
     def _messages(self, chunk: bytes) -> Iterator[RawMessage]:
@@ -128,7 +128,7 @@ class BagReader:
             if isinstance(record, RawMessage):
                 yield record
             else:
-                self.contents.note(record)
+                self.contents.add(record)
 
 
 def bag_file(path: Path) -> Path:

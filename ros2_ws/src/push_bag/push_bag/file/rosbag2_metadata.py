@@ -1,4 +1,4 @@
-"""rosbag2's `metadata.yaml`: what lies in a bag; its presence marks a clean finish."""
+"""Writes rosbag2's `metadata.yaml`; its presence marks a finished recording."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -16,7 +16,7 @@ FILE_NAME = 'metadata.yaml'
 
 @dataclass(frozen=True)
 class TopicSummary:
-    """What is told of one topic.
+    """One topic as `metadata.yaml` lists it.
 
     Attributes:
         name: full name.
@@ -35,7 +35,7 @@ class TopicSummary:
 
 @dataclass(frozen=True)
 class Span:
-    """First and last log time of a bag [ns]; both 0 where it is empty."""
+    """First and last log time of a bag [ns]; both 0 if it is empty."""
 
     start_ns: int
     end_ns: int
@@ -48,7 +48,7 @@ def write_metadata(
     span: Span,
     facts: Mapping[str, str],
 ) -> None:
-    """Writes `metadata.yaml` beside the bag, so that it is either whole or not there.
+    """Writes `metadata.yaml` to the run's folder, completely or not at all.
 
     Args:
         folder: the run's folder.

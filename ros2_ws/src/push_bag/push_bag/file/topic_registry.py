@@ -16,8 +16,8 @@ class Topic:
         name: full name.
         type_name: in three parts.
         qos: the offered profiles as rosbag2's YAML list.
-        type_hash: `RIHS01_…`, empty where the bag has none.
-        schema: the type's definition, with all that it is made of.
+        type_hash: `RIHS01_…`; empty if the bag has none.
+        schema: `ros2msg` definition of the type and all nested types.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What arrived on one topic: how much, how often, and how much was lost."""
+"""Counts, rate and losses of the messages of a topic."""
 
 from collections.abc import Mapping
 
@@ -14,7 +14,7 @@ class Traffic:
         first_ns: log time of the first message, 0 before it.
         last_ns: log time of the last message.
         longest_ns: longest time between two messages.
-        middleware_lost: what the middleware itself said it lost; None where it was not asked.
+        middleware_lost: messages that the middleware reported as lost; None if unknown.
     """
 
     def __init__(self) -> None:
@@ -26,11 +26,11 @@ class Traffic:
         self.middleware_lost: int | None = None
         self._gaps = SequenceGaps()
 
-    def saw(self, sequence: int, log_ns: int) -> None:
+    def add(self, sequence: int, log_ns: int) -> None:
         """Counts one message.
 
         Args:
-            sequence: the publisher's number of it, from 1; 0 where unknown.
+            sequence: number by its publisher, from 1; 0 where unknown.
             log_ns: when it was received [ns].
         """
         self.received += 1
@@ -45,7 +45,7 @@ class Traffic:
 
     @property
     def lost(self) -> int:
-        """Messages missing between those that were seen, see sequence_gaps.py."""
+        """Messages missing between those received; see sequence_gaps.py."""
         return self._gaps.lost
 
     @property
@@ -60,6 +60,6 @@ def lost_text(traffic: Mapping[str, Traffic]) -> str:
     lost = sum(each.lost for each in traffic.values())
     sent = lost + sum(each.received for each in traffic.values())
     named = ', '.join(f'{name} {each.lost}' for name, each in traffic.items() if each.lost)
-    told = sum(each.middleware_lost or 0 for each in traffic.values())
+    reported = sum(each.middleware_lost or 0 for each in traffic.values())
     text = f'{lost} of {sent} messages lost' + (f': {named}' if named else '')
-    return text + (f'; the middleware tells of {told}' if told else '')
+    return text + (f'; the middleware reports {reported}' if reported else '')

@@ -1,1 +1,1 @@
-"""Messages of a running cell for viewers in a browser."""
+"""Serves a running cell to viewers in a browser."""

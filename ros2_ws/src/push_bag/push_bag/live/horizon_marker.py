@@ -1,4 +1,4 @@
-"""The planned horizon as a marker, for viewers that know no message but the standard ones."""
+"""The planned horizon as a marker, for viewers that show standard messages only."""
 
 from geometry_msgs.msg import Point
 from push_msgs.msg import Horizon
@@ -18,7 +18,7 @@ def horizon_marker(data: bytes) -> bytes:
     horizon = deserialize_message(data, Horizon)
     line = Marker(header=horizon.header, ns='horizon', type=Marker.LINE_STRIP, color=AMBER)
     line.scale.x = WIDTH
-    # the one that comes next takes its place; without a next one it goes away
+    # replaced by the next horizon; disappears if there is none
     line.lifetime.nanosec = 200_000_000
     places = zip(horizon.x, horizon.y, strict=True)
     line.points = [Point(x=x, y=y, z=ABOVE) for x, y in places]

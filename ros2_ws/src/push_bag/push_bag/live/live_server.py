@@ -1,8 +1,7 @@
-"""Serves the cell's messages to a browser over the Foxglove WebSocket protocol.
+"""Serves the cell's messages to browsers over the Foxglove WebSocket protocol.
 
-Takes the place of a bag: a `Recording` writes into it what would go into a file. Messages of
-latched topics are kept and shown again to whoever subscribes later, as DDS does. The planned
-horizon is shown a second time, as a marker on `horizon_line`.
+A `Recording` writes to it as to a bag. The last message of a latched topic is sent to later
+subscribers, as DDS does. The planned horizon is also sent as a marker, on `horizon_line`.
 """
 
 from collections.abc import Iterable, Mapping
@@ -17,19 +16,19 @@ from push_bag.live.horizon_marker import HORIZON_TYPE, MARKER_TYPE, horizon_mark
 
 
 class LiveServer(ServerListener):
-    """A `RawSink` that browsers watch; nothing is kept but what latched topics said last."""
+    """A `RawSink` that sends messages to browsers; stores the last one of latched topics."""
 
     def __init__(self, host: str, port: int, topics: Iterable[tuple[str, str, str]]) -> None:
-        """Starts to listen.
+        """Starts the server.
 
         Args:
-            host: address to listen at.
-            port: of TCP; 0 takes any that is free.
-            topics: that are announced before anybody watches, as `add_topic` takes them. A
-                browser that is there when a topic is announced may ask for it too early.
+            host: address to listen on.
+            port: TCP port; 0 for any free one.
+            topics: arguments of `add_topic` for topics to announce before the first client: a
+                client that sees a topic being announced may subscribe too early.
 
         Raises:
-            RunError: it cannot listen there.
+            RunError: the address or port is not available.
         """
         self._context = foxglove.Context()
         self._channels: dict[str, Any] = {}
@@ -50,16 +49,16 @@ class LiveServer(ServerListener):
 
     @property
     def port(self) -> int:
-        """Where it listens."""
+        """TCP port of the server."""
         return int(self._server.port)
 
     @property
     def is_open(self) -> bool:
-        """Whether it takes messages."""
+        """Always True: only a bag can fail to be written."""
         return True
 
     def add_topic(self, name: str, type_name: str, qos_yaml: str) -> None:
-        """Announces a topic that is not announced yet; see `BagWriter.add_topic`.
+        """Announces a topic, once; see `BagWriter.add_topic`.
 
         Raises:
             InputError: the type is not installed.
@@ -75,7 +74,7 @@ class LiveServer(ServerListener):
     def write(
         self, name: str, data: bytes, log_ns: int, _publish_ns: int, _sequence: int = 0
     ) -> None:
-        """Sends one serialized message to everyone who watches its topic."""
+        """Sends one serialized message to the subscribers of its topic."""
         if name in self._latched:
             self._latched[name] = data
         self._channels[name].log(data, log_time=log_ns)
@@ -83,17 +82,17 @@ class LiveServer(ServerListener):
             self._lines[name].log(horizon_marker(data), log_time=log_ns)
 
     def flush(self) -> None:
-        """Nothing waits."""
+        """Does nothing: messages are sent at once."""
 
-    def note(self, _name: str, _values: Mapping[str, str]) -> None:
-        """Nobody asks how the recording went."""
+    def add_facts(self, _name: str, _facts: Mapping[str, str]) -> None:
+        """Does nothing: clients are not interested in facts about the recording."""
 
     def close(self) -> None:
-        """Stops to listen."""
+        """Stops the server."""
         self._server.stop()
 
     def on_subscribe(self, _client: Any, channel: Any) -> None:
-        """Shows what a latched topic said last."""
+        """Sends the last message of a latched topic to a new subscriber."""
         if self._latched.get(channel.topic):
             self._channels[channel.topic].log(self._latched[channel.topic])
 

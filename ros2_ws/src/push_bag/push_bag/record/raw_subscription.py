@@ -1,4 +1,4 @@
-"""Takes messages of a topic as bytes, with the middleware's times and numbers."""
+"""Receives serialized messages with the times and sequence numbers of the middleware."""
 
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -14,7 +14,7 @@ DEPTH = 1000  # messages that may wait between two polls
 
 
 class ReceivedMessage(NamedTuple):
-    """One message as it came: bytes, times [ns] and the publisher's number of it."""
+    """One serialized message, its times [ns], and its number by its publisher."""
 
     data: bytes
     received_ns: int
@@ -23,20 +23,19 @@ class ReceivedMessage(NamedTuple):
 
 
 class RawSubscription:
-    """A subscription that is polled.
+    """A polled subscription.
 
-    Its node must be in no executor: rclpy's EventsExecutor cannot hand the middleware's times and
-    sequence numbers to a callback.
+    Polled because rclpy's EventsExecutor does not pass times and sequence numbers to callbacks.
     """
 
     def __init__(self, node: Node, topic: str, type_name: str, offered: QoSProfile) -> None:
         """Subscribes.
 
         Args:
-            node: in no executor.
+            node: must be in no executor.
             topic: full name.
             type_name: in three parts.
-            offered: what the publishers offer; the subscription takes all of it.
+            offered: QoS of the publishers; the subscription requests no more.
 
         Raises:
             InputError: the type is not installed.
@@ -49,12 +48,12 @@ class RawSubscription:
         )
         self._loss_event = _loss_event(self._subscription)
 
-    def hears(self, offered: QoSProfile) -> bool:
-        """Whether it asks for no more than this."""
-        wanted = _matching(offered)
+    def accepts(self, offered: QoSProfile) -> bool:
+        """Whether the subscription is compatible with a publisher's QoS."""
+        request = _matching(offered)
         return bool(
-            self._profile.reliability in (wanted.reliability, ReliabilityPolicy.BEST_EFFORT)
-            and self._profile.durability in (wanted.durability, DurabilityPolicy.VOLATILE)
+            self._profile.reliability in (request.reliability, ReliabilityPolicy.BEST_EFFORT)
+            and self._profile.durability in (request.durability, DurabilityPolicy.VOLATILE)
         )
 
     def close(self) -> None:
@@ -63,28 +62,28 @@ class RawSubscription:
 
     @property
     def middleware_lost(self) -> int:
-        """Messages that the middleware itself says it lost; 0 where it never says."""
+        """Messages that the middleware reports as lost; 0 if it does not report losses."""
         if self._loss_event is None:
             return 0
         with self._loss_event:
             return int(self._loss_event.take_event().total_count)
 
     def take_all(self) -> Iterator[ReceivedMessage]:
-        """All messages that have come since the last call, oldest first."""
+        """All messages received since the last call, oldest first."""
         handle = self._subscription.handle
         with handle:
             while (taken := handle.take_message(self._type, True)) is not None:
-                data, about = taken
+                data, info = taken
                 yield ReceivedMessage(
                     data,
-                    about['received_timestamp'],
-                    about['source_timestamp'],
-                    about['publication_sequence_number'] or 0,
+                    info['received_timestamp'],
+                    info['source_timestamp'],
+                    info['publication_sequence_number'] or 0,
                 )
 
 
 def weakest(offered: Sequence[QoSProfile]) -> QoSProfile:
-    """The profile by which all of some publishers are heard."""
+    """The weakest QoS among these publishers; a subscription with it is compatible with all."""
     reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offered)
     latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offered)
     return QoSProfile(
@@ -95,7 +94,7 @@ def weakest(offered: Sequence[QoSProfile]) -> QoSProfile:
 
 
 def _loss_event(subscription: Any) -> Any:
-    """What tells of losses; polled like the messages, so that no executor is needed."""
+    """The event of lost messages, polled like the messages; None if not supported."""
     kind = QoSSubscriptionEventType.RCL_SUBSCRIPTION_MESSAGE_LOST
     try:
         with subscription.handle:
@@ -105,7 +104,7 @@ def _loss_event(subscription: Any) -> Any:
 
 
 def _ignore(_message: object) -> None:
-    """Never called: the node is in no executor."""
+    """Is never called, as the node is in no executor."""
 
 
 def _matching(offered: QoSProfile) -> QoSProfile:

@@ -1,4 +1,4 @@
-"""The recorder node: every topic of the cell, raw, into one bag."""
+"""The recorder node: writes every topic of the cell to one bag."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -22,20 +22,20 @@ from push_bag.record.recorder_settings import (
 )
 from push_bag.record.recording import Recording
 
-DISCOVERY_PERIOD = 0.1  # [s] while topics of the cell are missing
-LATER_DISCOVERY_PERIOD = 1.0  # [s] for what comes while running
+DISCOVERY_PERIOD = 0.1  # [s] until all core topics of the cell are recorded
+LATER_DISCOVERY_PERIOD = 1.0  # [s] afterwards
 REPORT_PERIOD = 1.0  # [s]
 
 
 class Recorder(Node):  # type: ignore[misc]
-    """Records every topic of a cell, raw, into a new folder, until it is stopped.
+    """Records every topic of a cell to a new folder until it is stopped.
 
       ros2 run push_bag recorder --ros-args -p folder:=runs/NEW
       ros2 run push_bag recorder --ros-args -p folder:=runs/NEW -p topics:="/arm/*,/joint_states"
 
     folder        new folder of the run; must not exist yet
-    topics        names or patterns to record beside those of the cell, separated by commas
-    attachments   files to keep in the bag, one a line
+    topics        more topics to record: names or patterns, separated by commas
+    attachments   files to attach to the bag, one per line
     facts_file    JSON object with the facts of the run
     """
 
@@ -53,7 +53,7 @@ class Recorder(Node):  # type: ignore[misc]
         self._start_timers(settings)
 
     def destroy_node(self) -> None:
-        """Takes what still waits, finishes the bag and says what was lost.
+        """Finishes the bag and writes the number of lost messages to standard error.
 
         Raises:
             RunError: the bag could not be written.
@@ -68,7 +68,7 @@ class Recorder(Node):  # type: ignore[misc]
             raise self._failure
 
     def _start_timers(self, settings: RecorderSettings) -> None:
-        # the recorder goes on while simulated time stands still
+        # steady, because simulated time may stand still
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         drain = self._guarded(self._recording.drain)
         flush = self._guarded(self._recording.flush)
@@ -80,7 +80,7 @@ class Recorder(Node):  # type: ignore[misc]
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
 
     def _guarded(self, work: Callable[[], None]) -> Callable[[], None]:
-        """The same work; its error is told to the cell and ends the node."""
+        """Wraps `work` so that its RunError is reported and ends the node."""
 
         def guarded() -> None:
             if self._failure is not None:
@@ -118,13 +118,13 @@ class Recorder(Node):  # type: ignore[misc]
     def _counts(self) -> dict[str, str]:
         return {
             topic: f'{seen.received} received, {seen.lost} lost, '
-            f'{seen.middleware_lost or 0} told of by the middleware'
+            f'{seen.middleware_lost or 0} reported by the middleware'
             for topic, seen in self._recording.traffic.items()
         }
 
 
 def open_bag(settings: RecorderSettings) -> BagWriter:
-    """The bag that the settings ask for, with facts and attachments in it.
+    """Creates the bag, with facts and attachments.
 
     Raises:
         InputError: no folder was named, it exists, or a file to include cannot be read.

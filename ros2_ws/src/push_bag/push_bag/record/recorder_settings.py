@@ -1,4 +1,4 @@
-"""What the recorder is told, and the run facts that it reads from files."""
+"""Parameters of the recorder, and the files that they name."""
 
 import json
 from dataclasses import dataclass
@@ -13,16 +13,16 @@ class RecorderSettings:
 
     folder: str = setting('', 'new folder of the run')
     facts_file: str = setting('', 'JSON object with the facts of the run; empty for none')
-    attachments: str = setting('', 'files to keep in the bag, one a line')
+    attachments: str = setting('', 'files to attach to the bag, one per line')
     topics: str = setting(
-        '', 'topics or patterns (/arm/*) to record beside those of the cell, separated by commas'
+        '', 'more topics to record: names or patterns (/arm/*), separated by commas'
     )
     poll_period: float = setting(
-        0.02, 'time between two looks for new messages', unit='s', low=0.001, high=0.1
+        0.02, 'time between two polls for messages', unit='s', low=0.001, high=0.1
     )
     flush_period: float = setting(
         0.25,
-        'time between two chunks: with poll_period what a kill can lose',
+        'time between two chunks; a kill loses at most this and poll_period',
         unit='s',
         low=0.05,
         high=10.0,
@@ -38,7 +38,7 @@ def split_list(text: str) -> list[str]:
 
 
 def read_facts(path: str) -> dict[str, str]:
-    """The facts of a run from a file that holds one JSON object.
+    """Reads the facts of a run from a JSON object.
 
     Args:
         path: of the file; empty for no facts.
@@ -60,18 +60,18 @@ def read_facts(path: str) -> dict[str, str]:
 
 
 def read_attachments(paths: list[str]) -> dict[str, bytes]:
-    """Files to keep in the bag, by name.
+    """Contents of the files to attach, by name.
 
     Raises:
         InputError: one of them cannot be read, or two have the same name.
     """
-    found: dict[str, bytes] = {}
+    contents: dict[str, bytes] = {}
     for path in paths:
         name = Path(path).name
-        if name in found:
-            raise InputError(f'{path}: another file to keep in the bag is called {name} as well')
-        found[name] = _content(path)
-    return found
+        if name in contents:
+            raise InputError(f'{path}: two attachments have the name {name}')
+        contents[name] = _content(path)
+    return contents
 
 
 def _content(path: str) -> bytes:

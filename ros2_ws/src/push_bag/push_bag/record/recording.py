@@ -1,4 +1,4 @@
-"""A recording in progress: finds publishers, takes their messages, hands them to a sink."""
+"""A recording in progress: subscribes to topics as they appear and passes messages to a sink."""
 
 import json
 from collections.abc import Collection, Mapping
@@ -15,11 +15,11 @@ from push_bag.record.raw_subscription import RawSubscription, weakest
 
 
 class RawSink(Protocol):
-    """Takes serialized messages; a `BagWriter`, whose methods say more, or a `LiveServer`."""
+    """Receives the messages of a `Recording`: a `BagWriter` or a `LiveServer`."""
 
     @property
     def is_open(self) -> bool:
-        """Whether it takes messages."""
+        """Whether messages can be written."""
 
     def add_topic(self, name: str, type_name: str, qos_yaml: str) -> None:
         """Declares a topic before its first message."""
@@ -27,24 +27,24 @@ class RawSink(Protocol):
     def write(
         self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0, /
     ) -> None:
-        """Takes one message of a topic."""
+        """Appends one serialized message; times in ns."""
 
     def flush(self) -> None:
-        """Hands on what waits."""
+        """Hands buffered messages on."""
 
-    def note(self, name: str, values: Mapping[str, str]) -> None:
-        """Takes a remark on the recording."""
+    def add_facts(self, name: str, facts: Mapping[str, str], /) -> None:
+        """Adds a named record of facts about the recording."""
 
     def close(self) -> None:
-        """Ends."""
+        """Finishes; no message follows."""
 
 
 class Recording:
     """Records topics as their publishers appear; call its methods from timers.
 
     Attributes:
-        traffic: received and lost per recorded topic.
-        refused: topics that are published but cannot be recorded, with the reason.
+        traffic: message counts of each recorded topic.
+        refused: reasons by topic, for topics that are published but cannot be recorded.
     """
 
     def __init__(
@@ -53,10 +53,10 @@ class Recording:
         """Starts with nothing subscribed.
 
         Args:
-            writer: the open bag, or who else wants them; closed by `close`.
-            topics: full names of the topics to record, or patterns of names such as `/arm/*`.
-            offers: what is known of the publishers' profiles by topic; discovery does not tell
-                their depth, so the bag states these where it can.
+            writer: receives the messages: a bag writer or the live server; closed by `close`.
+            topics: full names of the topics to record, or patterns such as `/arm/*`.
+            offers: known QoS profiles of publishers by topic, which the bag states. Profiles of
+                other topics come from discovery, which does not give the depth.
         """
         self.traffic: dict[str, Traffic] = {}
         self.refused: dict[str, str] = {}
@@ -64,7 +64,7 @@ class Recording:
         self._topics = topics
         self._offers = offers
         self._subscriptions: dict[str, RawSubscription] = {}
-        # its subscriptions are polled, so this node is in no executor
+        # in no executor: its subscriptions are polled
         self._listener: Node = rclpy.create_node(
             'recorder_listener',
             use_global_arguments=False,
@@ -73,21 +73,21 @@ class Recording:
         )
 
     def discover(self) -> None:
-        """Subscribes to the wanted topics that have a publisher by now.
+        """Subscribes to the topics to record that have a publisher.
 
-        Anew where a publisher came that offers less than the others: it would not be heard.
+        Subscribes again if a new publisher offers a weaker QoS than the subscription requests.
 
         Raises:
             RunError: the bag cannot be written.
         """
         for topic, types in self._listener.get_topic_names_and_types():
             if topic in self._subscriptions:
-                self._hear_all(topic, types[0])
-            elif topic not in self.refused and self._is_wanted(topic):
+                self._resubscribe(topic, types[0])
+            elif topic not in self.refused and self._is_selected(topic):
                 self._subscribe(topic, types[0])
 
     def drain(self) -> None:
-        """Writes all messages that have come since the last call.
+        """Writes all messages received since the last call.
 
         Raises:
             RunError: the bag cannot be written.
@@ -96,10 +96,10 @@ class Recording:
             seen = self.traffic[topic]
             for taken in subscription.take_all():
                 self._writer.write(topic, *taken)
-                seen.saw(taken.sequence, taken.received_ns)
+                seen.add(taken.sequence, taken.received_ns)
 
     def flush(self) -> None:
-        """Ends the chunk in progress, so that a kill loses nothing older, and asks for losses.
+        """Ends the current chunk, and updates the losses that the middleware reports.
 
         Raises:
             RunError: the bag cannot be written.
@@ -109,7 +109,7 @@ class Recording:
             self.traffic[topic].middleware_lost = subscription.middleware_lost
 
     def close(self) -> None:
-        """Takes what still waits and finishes the bag.
+        """Writes the messages that still wait, and finishes the bag.
 
         Raises:
             RunError: the bag cannot be written.
@@ -118,13 +118,13 @@ class Recording:
             if self._writer.is_open:
                 self.drain()
                 self.flush()
-                self._writer.note(COUNTS_RECORD, self._counts())
+                self._writer.add_facts(COUNTS_RECORD, self._counts())
                 self._writer.close()
         finally:
             self._listener.destroy_node()
 
     def _counts(self) -> dict[str, str]:
-        """What was received and lost of each topic, for the bag."""
+        """Received and lost messages by topic, as JSON."""
         return {
             topic: json.dumps(
                 {
@@ -136,19 +136,19 @@ class Recording:
             for topic, seen in self.traffic.items()
         }
 
-    def _is_wanted(self, topic: str) -> bool:
-        return any(fnmatchcase(topic, wanted) for wanted in self._topics)
+    def _is_selected(self, topic: str) -> bool:
+        return any(fnmatchcase(topic, pattern) for pattern in self._topics)
 
     def _offered(self, topic: str) -> QoSProfile | None:
-        """What all publishers of a topic offer together, None without a publisher."""
+        """The weakest QoS among the publishers of a topic; None without a publisher."""
         publishers = self._listener.get_publishers_info_by_topic(topic)
         return weakest([each.qos_profile for each in publishers]) if publishers else None
 
-    def _hear_all(self, topic: str, type_name: str) -> None:
+    def _resubscribe(self, topic: str, type_name: str) -> None:
         offered = self._offered(topic)
-        if offered is None or self._subscriptions[topic].hears(offered):
+        if offered is None or self._subscriptions[topic].accepts(offered):
             return
-        # what comes between the two is counted as lost
+        # messages between the two subscriptions are counted as lost
         self.drain()
         self._subscriptions[topic].close()
         self._subscriptions[topic] = RawSubscription(self._listener, topic, type_name, offered)

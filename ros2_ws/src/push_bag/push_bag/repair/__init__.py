@@ -1,1 +1,1 @@
-"""Recovery of what is whole in a broken bag."""
+"""Recovery of the intact part of a damaged bag."""

@@ -1,4 +1,4 @@
-"""`push_bag recover BROKEN -o OUT`: a sound bag of all that is whole in a broken one."""
+"""`push_bag recover BROKEN -o OUT`: writes a new bag with the intact part of a damaged one."""
 
 import argparse
 import contextlib
@@ -26,12 +26,12 @@ from push_bag.file import (
     qos_profile,
 )
 from push_bag.repair.recovered import Recovered
-from push_bag.repair.salvage import Damage, WholeChunk, whole_parts
+from push_bag.repair.salvage import Damage, IntactChunk, parts_of
 
-RECOVERY_RECORD = 'recovery'  # what was saved and what is missing, written last
+RECOVERY_RECORD = 'recovery'  # saved and missing messages, written last
 EPILOG = """
-OUT becomes a run folder with one finished bag: every whole chunk of BROKEN, facts and attachments.
-What is missing is said: messages by their numbers, seconds by their times.
+OUT becomes a run folder with one finished bag: every intact chunk of BROKEN, facts, attachments.
+Prints how many messages and seconds are missing, from sequence numbers and times.
 """
 
 
@@ -41,31 +41,31 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def recover(broken: Path, folder: Path) -> Recovered:
-    """Writes a new bag of all that is whole in a broken one.
+    """Writes a new bag with the intact part of a damaged one.
 
     Args:
         broken: run folder or MCAP file.
         folder: of the new run; must not exist yet.
 
     Returns:
-        What there was and what is missing.
+        Counts of saved and missing messages.
 
     Raises:
-        InputError: there is no bag, nothing whole in it, or the folder exists already.
+        InputError: there is no bag, no intact chunk in it, or the folder exists already.
         RunError: the new bag cannot be written.
     """
     path = bag_file(broken)
     with _mapped(path) as file:
         contents = _contents(file)
         if not contents.topics:
-            raise InputError(f'{path} holds nothing that could be recovered')
+            raise InputError(f'{path} holds nothing that can be recovered')
         facts = {**contents.facts, 'recovered_from': path.name, 'recovered_bag': _state(contents)}
         with atomic_bag(folder, facts, contents.attachments) as writer:
-            found = _copied(file, contents, writer)
+            counts = _copied(file, contents, writer)
             if contents.counts:
-                writer.note(COUNTS_RECORD, contents.counts)
-            writer.note(RECOVERY_RECORD, found.facts())
-            return found
+                writer.add_facts(COUNTS_RECORD, contents.counts)
+            writer.add_facts(RECOVERY_RECORD, counts.facts())
+            return counts
 
 
 def _state(contents: BagContents) -> str:
@@ -73,48 +73,48 @@ def _state(contents: BagContents) -> str:
 
 
 def _contents(file: mmap.mmap) -> BagContents:
-    """Topics, facts and attachments of all whole parts.
+    """Topics, facts and attachments of all intact parts.
 
-    Topics from chunks take precedence: chunks have checksums, the summary's records have none.
+    Topics from chunks take precedence: chunks have checksums, the records of the summary do not.
     """
     contents, unverified = BagContents(), []
-    for part in whole_parts(file):
+    for part in parts_of(file):
         if isinstance(part, RawRecord) and part.opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
             unverified.append(part)
         else:
-            _note(contents, part)
+            _read(contents, part)
     for part in unverified:
-        _note(contents, part)
+        _read(contents, part)
     return contents
 
 
-def _note(contents: BagContents, part: WholeChunk | RawRecord | Damage) -> None:
+def _read(contents: BagContents, part: IntactChunk | RawRecord | Damage) -> None:
     for record in _records(part):
         if isinstance(record, RawRecord):
             with contextlib.suppress(DamagedError):
-                contents.note(record)
+                contents.add(record)
 
 
 def _copied(file: mmap.mmap, contents: BagContents, writer: BagWriter) -> Recovered:
     """Copies all messages of known topics."""
-    found = Recovered(contents)
+    counts = Recovered(contents)
     for each in contents.topics.values():
         _add(writer, each)
-    for part in whole_parts(file):
+    for part in parts_of(file):
         if isinstance(part, Damage):
-            found.skipped(part.length)
+            counts.add_damage(part.length)
         for raw in _records(part):
             topic = contents.topics.get(raw.channel) if isinstance(raw, RawMessage) else None
             if isinstance(raw, RawMessage) and topic is not None:
                 writer.write(topic.name, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
-                found.saw(topic.name, raw)
-    return found
+                counts.add(topic.name, raw)
+    return counts
 
 
-def _records(part: WholeChunk | RawRecord | Damage) -> Iterator[RawMessage | RawRecord]:
-    """The records in one part of the file."""
+def _records(part: IntactChunk | RawRecord | Damage) -> Iterator[RawMessage | RawRecord]:
+    """The records in a part of the file; stops where the part is damaged."""
     with contextlib.suppress(DamagedError):
-        if isinstance(part, WholeChunk):
+        if isinstance(part, IntactChunk):
             yield from chunk_records(part.data)
         elif isinstance(part, RawRecord):
             yield message(part.body) if part.opcode == Opcode.MESSAGE else part
@@ -127,7 +127,7 @@ def _add(writer: BagWriter, topic: Topic) -> None:
 
 
 def _readable(qos: str) -> str:
-    """The profiles as they are, none where their text is damaged."""
+    """The QoS text; empty if it is damaged."""
     try:
         qos_profile(qos)
     except InputError:
@@ -145,7 +145,7 @@ def _mapped(path: Path) -> Iterator[mmap.mmap]:
 
 
 def _parser() -> Parser:
-    parser = Parser('Makes a sound bag of all that is whole in a broken one.', EPILOG)
+    parser = Parser('Writes a new bag with the intact part of a damaged one.', EPILOG)
     parser.add_argument('broken', type=Path, metavar='BROKEN', help='run folder or MCAP file')
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='OUT', help='new run folder'
@@ -154,8 +154,8 @@ def _parser() -> Parser:
 
 
 def _work(arguments: argparse.Namespace) -> None:
-    found = recover(arguments.broken, arguments.output)
-    sys.stdout.write(found.text() + f'\n{arguments.output}\n')
+    counts = recover(arguments.broken, arguments.output)
+    sys.stdout.write(counts.text() + f'\n{arguments.output}\n')
 
 
 if __name__ == '__main__':

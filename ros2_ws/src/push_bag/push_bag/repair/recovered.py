@@ -1,4 +1,4 @@
-"""What was saved of a broken bag, and what is missing."""
+"""Counts of the messages saved from a damaged bag, and of the missing ones."""
 
 from push_bag.file import BagContents, RawMessage, Traffic
 
@@ -6,12 +6,12 @@ SECOND = 1_000_000_000
 
 
 class Recovered:
-    """Counts while the whole parts of a bag are copied in the order of the file.
+    """Counts the saved messages and damaged bytes, in the order of the file.
 
     Attributes:
-        messages: that were saved.
-        damaged_bytes: of the broken file.
-        gap_ns: length of the times around damaged bytes from which nothing was saved.
+        messages: number of saved messages.
+        damaged_bytes: of the damaged file.
+        gap_ns: sum of the times between the saved messages before and after damaged bytes [ns].
     """
 
     def __init__(self, contents: BagContents) -> None:
@@ -23,31 +23,31 @@ class Recovered:
         self._first_ns = self._last_ns = 0
         self._after_damage = False
 
-    def saw(self, topic: str, message: RawMessage) -> None:
-        """Counts one message that was saved."""
+    def add(self, topic: str, message: RawMessage) -> None:
+        """Counts one saved message."""
         self._first_ns = self._first_ns or message.log_ns
         if self._after_damage and self.messages:
             self.gap_ns += max(message.log_ns - self._last_ns, 0)
         self._after_damage = False
         self._last_ns = max(self._last_ns, message.log_ns)
         self.messages += 1
-        self._traffic.setdefault(topic, Traffic()).saw(message.sequence, message.log_ns)
+        self._traffic.setdefault(topic, Traffic()).add(message.sequence, message.log_ns)
 
-    def skipped(self, count: int) -> None:
+    def add_damage(self, count: int) -> None:
         """Counts damaged bytes."""
         self.damaged_bytes += count
         self._after_damage = True
 
     @property
     def missing(self) -> int:
-        """Messages missing: by what the bag says it held, else by the gaps in their numbers."""
+        """Missing messages: from the file's statistics if intact, else from sequence numbers."""
         if self._contents.statistics is not None:
             return int(self._contents.statistics.message_count) - self.messages
         return sum(seen.lost for seen in self._traffic.values())
 
     @property
     def missing_ns(self) -> int:
-        """Time [ns] of which nothing was saved, as far as the bag tells."""
+        """Time [ns] without saved messages, as far as the bag states it."""
         stated = self._contents.statistics
         if stated is None or not self.messages:
             return self.gap_ns
@@ -56,7 +56,7 @@ class Recovered:
         return self.gap_ns + int(end) + int(begin)
 
     def facts(self) -> dict[str, str]:
-        """The same for the bag."""
+        """The counts as a metadata record."""
         return {
             'messages_saved': str(self.messages),
             'messages_missing': str(self.missing),
@@ -65,7 +65,7 @@ class Recovered:
         }
 
     def text(self) -> str:
-        """Lines for a person."""
+        """The counts as lines of text."""
         span = (self._last_ns - self._first_ns) / SECOND
         lines = [
             f'{self.messages} messages of {len(self._contents.topics)} topics saved, {span:.2f} s',
@@ -74,6 +74,6 @@ class Recovered:
         ]
         if not self._contents.finished:
             lines.append(
-                'the recording was cut short: what came after the last whole chunk is not counted'
+                'the recording was cut short; messages after the last intact chunk are not counted'
             )
         return '\n'.join(lines)

@@ -1,9 +1,8 @@
-"""Finds what is whole in an MCAP file, however it ended and whatever was done to its bytes.
+"""Finds the intact records of a damaged MCAP file.
 
-A chunk carries a checksum, so that a whole one is known wherever it stands. From a place where the
-bytes make no sense the search goes on at each byte that could begin a chunk; and a record without
-a checksum is not believed to be as long as it says if a whole chunk begins within it. So no whole
-chunk is lost, whatever else is.
+Chunks have checksums, so an intact chunk is recognised anywhere. After damaged bytes the search
+continues at each byte that may begin a chunk. A record without a checksum is rejected if an intact
+chunk begins within the length that it states. So every intact chunk is found.
 """
 
 import mmap
@@ -16,7 +15,7 @@ from mcap.opcode import Opcode
 
 from push_bag.file import MAGIC, DamagedError, RawRecord, chunk_data
 
-_OPENING = struct.Struct('<BQ')
+_PREFIX = struct.Struct('<BQ')
 _CHUNK_HEAD = struct.Struct('<QQQI')
 _LENGTH = struct.Struct('<I')
 _LONG_LENGTH = struct.Struct('<Q')
@@ -25,40 +24,40 @@ _FIRST_BYTE = bytes([Opcode.CHUNK])
 
 
 class Damage(NamedTuple):
-    """Bytes of the file that belong to nothing."""
+    """Bytes that belong to no intact record."""
 
     at: int
     length: int
 
 
-class WholeChunk(NamedTuple):
-    """The records of a chunk, decompressed."""
+class IntactChunk(NamedTuple):
+    """The data of a chunk, decompressed: a sequence of records."""
 
     data: bytes
 
 
-def whole_parts(file: mmap.mmap) -> Iterator[WholeChunk | RawRecord | Damage]:
-    """All that is whole in a file, and what is not, in the order of the file."""
+def parts_of(file: mmap.mmap) -> Iterator[IntactChunk | RawRecord | Damage]:
+    """Intact chunks, other intact records and damaged ranges, in the order of the file."""
     at = len(MAGIC) if file[: len(MAGIC)] == MAGIC else 0
     end = len(file) - (len(MAGIC) if file[-len(MAGIC) :] == MAGIC else 0)
     while at < end:
-        found, after = _part_at(file, at)
-        if found is None:
+        part, after = _part_at(file, at)
+        if part is None:
             after = _next_chunk(file, at + 1, len(file))
-        yield found or Damage(at, after - at)
+        yield part or Damage(at, after - at)
         at = after
 
 
-def _part_at(file: mmap.mmap, at: int) -> tuple[WholeChunk | RawRecord | None, int]:
-    """The part that begins at a byte, and the byte behind it; None where there is no whole one."""
+def _part_at(file: mmap.mmap, at: int) -> tuple[IntactChunk | RawRecord | None, int]:
+    """The intact part at an offset, None without one, and the offset of its end."""
     after = _end_of_record(file, at)
     if after is None:
         return None, at
     opcode = file[at]
     if opcode == Opcode.CHUNK:
         chunk = _chunk_at(file, at)
-        return (WholeChunk(chunk) if chunk is not None else None), after
-    body = file[at + _OPENING.size : after]
+        return (IntactChunk(chunk) if chunk is not None else None), after
+    body = file[at + _PREFIX.size : after]
     if opcode == Opcode.ATTACHMENT:
         return (RawRecord(opcode, body) if _is_verified(body) else None), after
     chunk_within = _next_chunk(file, at + 1, after) < after
@@ -66,16 +65,16 @@ def _part_at(file: mmap.mmap, at: int) -> tuple[WholeChunk | RawRecord | None, i
 
 
 def _end_of_record(file: mmap.mmap, at: int) -> int | None:
-    if at + _OPENING.size > len(file):
+    if at + _PREFIX.size > len(file):
         return None
-    opcode, length = _OPENING.unpack_from(file, at)
-    after = at + _OPENING.size + int(length)
+    opcode, length = _PREFIX.unpack_from(file, at)
+    after = at + _PREFIX.size + int(length)
     known = Opcode.HEADER <= opcode <= Opcode.DATA_END
     return after if known and after <= len(file) else None
 
 
 def _next_chunk(file: mmap.mmap, begin: int, end: int) -> int:
-    """Where the next whole chunk begins, `end` where none begins before it."""
+    """Offset of the next intact chunk; `end` if none begins before it."""
     at = file.find(_FIRST_BYTE, begin, end)
     while at >= 0:
         if _chunk_at(file, at) is not None:
@@ -85,19 +84,19 @@ def _next_chunk(file: mmap.mmap, begin: int, end: int) -> int:
 
 
 def _chunk_at(file: mmap.mmap, at: int) -> bytes | None:
-    """The data of a whole chunk that begins at a byte, None where none does."""
+    """The data of the intact chunk at an offset; None if there is none."""
     after = _end_of_record(file, at)
     if after is None or not _looks_like_chunk(file, at, after):
         return None
     try:
-        return chunk_data(file[at + _OPENING.size : after])
+        return chunk_data(file[at + _PREFIX.size : after])
     except DamagedError:
         return None
 
 
 def _looks_like_chunk(file: mmap.mmap, at: int, after: int) -> bool:
-    """Whether the lengths in a chunk's head fit each other; cheap, for it is asked often."""
-    name_at = at + _OPENING.size + _CHUNK_HEAD.size + _LENGTH.size
+    """Whether the lengths in a chunk's header agree; cheap, because it is called often."""
+    name_at = at + _PREFIX.size + _CHUNK_HEAD.size + _LENGTH.size
     if name_at > after:
         return False
     (name_length,) = _LENGTH.unpack_from(file, name_at - _LENGTH.size)
@@ -111,7 +110,7 @@ def _looks_like_chunk(file: mmap.mmap, at: int, after: int) -> bool:
 
 
 def _is_verified(attachment: bytes) -> bool:
-    """Whether an attachment's checksum fits."""
+    """Whether an attachment's checksum is right or absent."""
     if len(attachment) < _LENGTH.size:
         return False
     (checksum,) = _LENGTH.unpack_from(attachment, len(attachment) - _LENGTH.size)

@@ -84,7 +84,7 @@ class _Rows:
         if known is None:
             known = self._topics[record.topic.name] = self._new_topic(record.topic.name)
         seen, read = known
-        seen.saw(record.sequence, record.log_ns)
+        seen.add(record.sequence, record.log_ns)
         if read is not None:
             read(record)
 
