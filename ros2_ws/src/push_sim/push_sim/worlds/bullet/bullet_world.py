@@ -47,7 +47,7 @@ class BulletWorld:
         x, y, theta = map(float, object_pose)
         tip = (float(tip_position[0]), float(tip_position[1]))
         if self._settings.size_error:
-            x, y, theta = self._outline.made_room((x, y, theta), tip)
+            x, y, theta = self._outline.without_overlap((x, y, theta), tip)
         self._impulse: Pair | None = None
         self._knocked_steps = 0
         self._scene.forget_contacts()
@@ -63,7 +63,7 @@ class BulletWorld:
         if tip_velocities and not self._aligned:
             self._align(tip_velocities[0])
         if self._impulse is not None:
-            self._scene.knock(self._axes.vector_inside(self._impulse))
+            self._scene.knock(self._axes.vector_from_world(self._impulse))
             self._impulse = None
         for velocity in tip_velocities:
             if self._steps_left == 0:
@@ -71,7 +71,7 @@ class BulletWorld:
             self._steps_left -= 1
             if self._settings.uneven:
                 self._scene.rub(self._axes)
-            inside = self._axes.vector_inside(velocity)
+            inside = self._axes.vector_from_world(velocity)
             if self._may_hit(velocity):
                 self._scene.step_cut_at_contact(inside)
             else:
@@ -80,15 +80,15 @@ class BulletWorld:
     def place_object(self, object_pose: Array) -> None:
         """See `World.place_object`."""
         x, y, theta = map(float, object_pose)
-        turn = self._axes.heading_inside(theta + self._symmetry.turn)
-        self._scene.put_slider(self._axes.point_inside((x, y)), turn)
+        turn = self._axes.heading_from_world(theta + self._symmetry.turn)
+        self._scene.put_slider(self._axes.point_from_world((x, y)), turn)
         if self._settings.uneven:
             self._steps_left = 0
 
     def place_tip(self, position: Array) -> None:
         """See `World.place_tip`."""
         x, y = map(float, position)
-        self._scene.put_tip(self._axes.point_inside((x, y)))
+        self._scene.put_tip(self._axes.point_from_world((x, y)))
 
     def push_object(self, impulse: Array) -> None:
         """See `World.push_object`."""
@@ -126,14 +126,14 @@ class BulletWorld:
     def object_pose(self) -> Array:
         """See `World.object_pose`."""
         slider = self._scene.slider
-        x, y = self._axes.point_outside((slider.x, slider.y))
-        theta = self._axes.heading_outside(slider.theta) - self._symmetry.turn
+        x, y = self._axes.point_to_world((slider.x, slider.y))
+        theta = self._axes.heading_to_world(slider.theta) - self._symmetry.turn
         return np.array([x, y, wrap_angle(theta)])
 
     @property
     def tip_position(self) -> Array:
         """See `World.tip_position`."""
-        return np.array(self._axes.point_outside(self._scene.tip))
+        return np.array(self._axes.point_to_world(self._scene.tip))
 
     @property
     def contact(self) -> bool:
@@ -155,16 +155,16 @@ class BulletWorld:
     def _follow_heading(self) -> None:
         """Turns the axes of the physics along the slider and moves their origin under it."""
         slider, axes = self._scene.move_axes_under_slider(), self._axes
-        theta = wrap_angle(axes.heading_outside(slider.theta))
-        self._axes = Axes(*axes.point_outside((slider.x, slider.y)), theta, axes.side)
+        theta = wrap_angle(axes.heading_to_world(slider.theta))
+        self._axes = Axes(*axes.point_to_world((slider.x, slider.y)), theta, axes.side)
         self._steps_left = self._follow_steps
 
     def _align(self, velocity: Pair) -> None:
         """Sees the push that begins from its face and half."""
         x, y, theta = self.object_pose.tolist()
-        tip = self._axes.point_outside(self._scene.tip)
+        tip = self._axes.point_to_world(self._scene.tip)
         seen = Symmetry.of_push((x, y, theta), tip, velocity)
-        self._put_down(self._outline.touched((x, y, theta), tip), tip, seen)
+        self._put_down(self._outline.snapped_to_contact((x, y, theta), tip), tip, seen)
         self._aligned = True
 
     def _put_down(self, pose: Pose, tip: Pair, seen: Symmetry) -> None:

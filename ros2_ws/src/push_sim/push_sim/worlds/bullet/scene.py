@@ -128,14 +128,14 @@ class BulletScene:
         client, slider = self._client, self.slider
         (_, _, height), (q_x, q_y, q_z, q_w) = self._where(self._object)
         linear, angular = pybullet.getBaseVelocity(self._object, client)
-        tip = slider.point_inside(self.tip)
+        tip = slider.point_from_world(self.tip)
         _, _, z, w = yaw_to_quaternion(-slider.theta)
         level = (w * q_x - z * q_y, w * q_y + z * q_x, w * q_z + z * q_w, w * q_w - z * q_z)
         pybullet.resetBasePositionAndOrientation(self._object, (0.0, 0.0, height), level, client)
         pybullet.resetBaseVelocity(
             self._object,
-            (*slider.vector_inside(linear[:2]), linear[2]),
-            (*slider.vector_inside(angular[:2]), angular[2]),
+            (*slider.vector_from_world(linear[:2]), linear[2]),
+            (*slider.vector_from_world(angular[:2]), angular[2]),
             client,
         )
         pybullet.resetBasePositionAndOrientation(self._tip, (*tip, HALF_HEIGHT), _UPRIGHT, client)
@@ -186,7 +186,7 @@ class BulletScene:
         )
         end = (x + velocity[0] * substep, y + velocity[1] * substep)
         return fraction_until_contact(
-            self._outline, slider.point_inside((x, y)), later.point_inside(end)
+            self._outline, slider.point_from_world((x, y)), later.point_from_world(end)
         )
 
     def _where(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:

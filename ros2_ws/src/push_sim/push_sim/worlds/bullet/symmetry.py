@@ -28,10 +28,10 @@ class Symmetry(NamedTuple):
     @classmethod
     def of_push(cls, pose: Pose, tip: Pair, velocity: Pair) -> 'Symmetry':
         """The map for a square at a pose and a tip at a position [m] with a velocity [m/s]."""
-        x, y = Axes(*pose).point_inside(tip)
+        x, y = Axes(*pose).point_from_world(tip)
         turn = 0.5 * math.pi * round(math.atan2(-y, -x) / (0.5 * math.pi))
         face = Axes(pose[0], pose[1], pose[2] + turn)
-        offset, across = face.point_inside(tip)[1], face.vector_inside(velocity)[1]
+        offset, across = face.point_from_world(tip)[1], face.vector_from_world(velocity)[1]
         decisive = offset if abs(offset) > _TOLERANCE else across
         return cls(turn, -1.0 if decisive < -_TOLERANCE else 1.0)
 

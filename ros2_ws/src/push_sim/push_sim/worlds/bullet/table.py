@@ -69,10 +69,10 @@ class UnevenTable:
             turning: of the slider [rad/s].
         """
         for box, foot in self._places:
-            x, y = slider.vector_outside(foot)
+            x, y = slider.vector_to_world(foot)
             slip = (velocity[0] - turning * y, velocity[1] + turning * x)
-            place = axes.point_outside((slider.x + x, slider.y + y))
-            coefficient = self._friction.coefficient(place, axes.vector_outside(slip))
+            place = axes.point_to_world((slider.x + x, slider.y + y))
+            coefficient = self._friction.coefficient(place, axes.vector_to_world(slip))
             pybullet.changeDynamics(
                 box, -1, lateralFriction=coefficient, physicsClientId=self._client
             )

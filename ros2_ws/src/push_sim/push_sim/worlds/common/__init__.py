@@ -1,4 +1,4 @@
-"""What the engines share: interface, outline of the object, support, friction of the table."""
+"""Parts that all engines share: interface, outline of the square, support, table friction."""
 
 from push_sim.worlds.common.axes import Axes, turned
 from push_sim.worlds.common.outline import Outline, Pose

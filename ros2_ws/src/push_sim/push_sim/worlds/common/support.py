@@ -1,7 +1,7 @@
-"""How the slider presses on the table: four feet on its diagonals, loaded as the statics say.
+"""Support of the slider on the table: four feet on its diagonals and their static loads.
 
-The friction moment of a load is its force times c, the mean distance of the pressure from the
-centre. Feet at that distance have the friction moment of a pressure that is spread out.
+The friction moment of a pressure distribution is its friction force times c, the mean distance of
+the pressure from the centre. Four feet at distance c have the friction moment of the distribution.
 """
 
 import math
@@ -17,12 +17,12 @@ QUADRANTS = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 
 
 def pressure_radius(pressure: str, side: float) -> float:
-    """Friction moment over friction force [m] of a pressure on a square of a side [m].
+    """Friction moment divided by friction force [m] of a pressure on a square.
 
     Args:
-        pressure: `uniform`; `centred`, uniform on the inner square of half the side; `rim`, on
-            the four edges alone.
-        side: of the square.
+        pressure: `uniform`; `centred`, uniform on the inner square of half the side; `rim`, only
+            on the four edges.
+        side: side of the square [m].
     """
     if pressure == 'rim':
         return 1.5 * uniform_pressure_radius(side)
@@ -30,7 +30,13 @@ def pressure_radius(pressure: str, side: float) -> float:
 
 
 def feet(settings: WorldSettings, side: float, seed: int) -> list[Pair]:
-    """Places [m] of the four feet under a square of a side [m]; `random` ones by the seed."""
+    """Positions [m] of the four feet under a square; the seed is used by pressure `random`.
+
+    Args:
+        settings: pressure and support radius.
+        side: side of the square [m].
+        seed: seed of the reset.
+    """
     distances = _distances(settings, side, seed) / math.sqrt(2.0)
     return [(x * d, y * d) for (x, y), d in zip(QUADRANTS, distances.tolist(), strict=True)]
 
@@ -44,13 +50,13 @@ def _distances(settings: WorldSettings, side: float, seed: int) -> Array:
     return np.full(4, pressure_radius(settings.pressure, side))
 
 
-def loads(places: list[Pair]) -> Array:
-    """Parts (4,) of the weight on feet that are equal springs: a plane's heights, in balance."""
-    plane = np.vstack([np.ones(len(places)), np.array(places).T])
+def loads(positions: list[Pair]) -> Array:
+    """Fractions (4,) of the weight on feet that are equal springs under a rigid body."""
+    plane = np.vstack([np.ones(len(positions)), np.array(positions).T])
     balance = np.array([1.0, 0.0, 0.0])
     return np.asarray(plane.T @ np.linalg.solve(plane @ plane.T, balance))
 
 
-def friction_moment_radius(places: list[Pair]) -> float:
-    """Friction moment over friction force [m] of feet at these places."""
-    return float(loads(places) @ [math.hypot(*place) for place in places])
+def friction_moment_radius(positions: list[Pair]) -> float:
+    """Friction moment divided by friction force [m] of feet at these positions."""
+    return float(loads(positions) @ [math.hypot(*position) for position in positions])

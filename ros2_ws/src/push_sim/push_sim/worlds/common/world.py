@@ -1,4 +1,4 @@
-"""What the plant needs of a world: an object on a table, and a tip that moves as it is told."""
+"""Interface of the physics engines: an object on a table and a tip with a given velocity."""
 
 from collections.abc import Sequence
 from typing import Protocol
@@ -8,46 +8,46 @@ from push_core.physics import Pair
 
 
 class World(Protocol):
-    """Rigid bodies in the plane; `worlds.make_world` knows the engines."""
+    """Rigid bodies in the plane; `push_sim.worlds.make_world` makes one of any engine."""
 
     def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
-        """Puts all at rest; what happened before leaves no trace, to the last bit.
+        """Puts everything at rest, independent to the last bit of what happened before.
 
         Args:
             object_pose: (3,) x [m], y [m], theta [rad].
             tip_position: (2,) centre of the tip [m].
-            seed: of what the settings let be drawn at random.
+            seed: seed of the random parts of the world.
         """
 
     def advance(self, tip_velocity: Pair, substeps: int) -> None:
-        """Moves on by some time steps while the tip keeps a velocity [m/s]."""
+        """Advances some time steps with a constant velocity [m/s] of the tip."""
 
     def follow(self, tip_velocities: Sequence[Pair]) -> None:
-        """Moves on by a time step for each velocity [m/s] of the tip."""
+        """Advances one time step for each velocity [m/s] of the tip."""
 
     def place_object(self, object_pose: Array) -> None:
-        """Lifts the object and puts it down at rest at a pose (3,)."""
+        """Moves the object to a pose (3,), at rest, without touching anything on the way."""
 
     def place_tip(self, position: Array) -> None:
-        """Lifts the tip and puts it down with its centre at a position (2,) [m]."""
+        """Moves the centre of the tip to a position (2,) [m] in the same way."""
 
     def push_object(self, impulse: Array) -> None:
         """Gives the object an impulse (2,) [N s] at its centre in the next time step."""
 
     def snapshot(self) -> object:
-        """The whole state, for `restore`; taking it changes nothing."""
+        """The complete state, for `restore`; taking it has no effect on the world."""
 
     def restore(self, snapshot: object) -> None:
-        """Goes back to a snapshot of a world of the same settings.
+        """Restores a snapshot of a world with the same settings.
 
-        What follows is what followed the snapshot, to the last bit, whatever happened since.
+        The world then continues exactly as after the snapshot, to the last bit.
 
         Raises:
-            InputError: the snapshot is not of such a world.
+            InputError: the snapshot is of another engine.
         """
 
     def close(self) -> None:
-        """Frees what the world holds; it can do nothing more."""
+        """Frees all resources; the world cannot be used afterwards."""
 
     @property
     def object_pose(self) -> Array:
@@ -59,7 +59,7 @@ class World(Protocol):
 
     @property
     def contact(self) -> bool:
-        """Whether the tip pressed on the object in the last time step."""
+        """Whether tip and object were in contact with a normal force in the last time step."""
 
     @property
     def penetration(self) -> float:

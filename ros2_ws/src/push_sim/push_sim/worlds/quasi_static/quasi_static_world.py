@@ -138,7 +138,7 @@ class QuasiStaticWorld:
         assert self._touch is not None
         touch, left = self._rolling.advance(self._touch, velocity, duration)
         self._move_tip(velocity, duration - left)
-        self._pose = self._outline.touching(*touch, self._tip)
+        self._pose = self._outline.pose_in_contact(*touch, self._tip)
         self._touch = touch if left == 0.0 else None
         return left
 
@@ -186,14 +186,14 @@ class QuasiStaticWorld:
     def _take_touch(self) -> None:
         """Both touch: at the place of the outline that is nearest to the tip."""
         touch = Touch(self._outline.nearest(*self._tip_in_body()), self._pose[2])
-        self._touch, self._pose = touch, self._outline.touching(*touch, self._tip)
+        self._touch, self._pose = touch, self._outline.pose_in_contact(*touch, self._tip)
 
     def _make_room(self) -> None:
         """Moves the square aside where it was put down on the tip."""
-        self._pose = self._outline.made_room(self._pose, self._tip)
+        self._pose = self._outline.without_overlap(self._pose, self._tip)
 
     def _gap(self) -> float:
         return self._outline.gap(*self._tip_in_body())
 
     def _tip_in_body(self) -> Pair:
-        return Axes(*self._pose).point_inside(self._tip)
+        return Axes(*self._pose).point_from_world(self._tip)
