@@ -276,6 +276,32 @@ def test_a_reset_refuses_what_is_no_state(ideal, start) -> None:
         ideal.reset(start[1], start[1], 0)
 
 
+OFFSETS = [(0.004, -0.002, 0.05), (0.001, 0.0, 0.0)]
+
+
+@pytest.mark.parametrize('offset', OFFSETS)
+def test_a_reset_places_the_object_with_the_start_offset(
+    engine, slider: Slider, start, offset
+) -> None:
+    names = ('start_offset.x', 'start_offset.y', 'start_offset.theta')
+    changes = {'world.engine': engine, **dict(zip(names, offset, strict=True))}
+    plant = Plant(replaced(profile('ideal'), changes), slider)
+    seen = plant.reset(*start, 0)
+    moved = [*to_body(start[0], plant.object_pose[:2]), plant.object_pose[2] - start[0][2]]
+    assert moved == pytest.approx(offset, abs=1e-9)
+    # the cameras see where it is, not where it was requested
+    np.testing.assert_allclose(seen.object_pose, plant.object_pose, atol=1e-6)
+    np.testing.assert_allclose(plant.tip_position, start[1], atol=1e-12)
+
+
+def test_a_start_offset_towards_the_tip_ends_in_contact(engine, slider: Slider, start) -> None:
+    changes = {'world.engine': engine, 'start_offset.x': -0.003}
+    plant = Plant(replaced(profile('ideal'), changes), slider)
+    plant.reset(*start, 0)
+    assert slider.gap(plant.object_pose, plant.tip_position) == pytest.approx(0.0, abs=1e-9)
+    assert slider.contact_offset(plant.object_pose, plant.tip_position) == pytest.approx(0.01)
+
+
 def test_a_command_that_is_not_finite_counts_as_none(ideal, start) -> None:
     ideal.reset(*start, 0)
     for _ in range(10):

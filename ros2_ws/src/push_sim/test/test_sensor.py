@@ -12,9 +12,27 @@ def test_the_noise_has_the_stated_standard_deviation() -> None:
     settings = SensorSettings(position_noise=1e-4, angle_noise=2e-4)
     sensor = Sensor(settings)
     sensor.reset(np.random.default_rng(0))
-    poses = [sensor.seen(POSE) for _ in range(4000)]
+    poses = [sensor.measured_pose(POSE) for _ in range(4000)]
     assert np.mean(poses, axis=0) == pytest.approx(POSE, abs=1e-5)
     assert np.std(poses, axis=0) == pytest.approx([1e-4, 1e-4, 2e-4], rel=0.05)
+
+
+def test_the_noise_of_the_tip_has_the_stated_standard_deviation() -> None:
+    sensor = Sensor(SensorSettings(tip_noise=2e-4))
+    sensor.reset(np.random.default_rng(0))
+    tips = [sensor.measured_tip(TIP) for _ in range(4000)]
+    assert np.mean(tips, axis=0) == pytest.approx(TIP, abs=2e-5)
+    assert np.std(tips, axis=0) == pytest.approx([2e-4, 2e-4], rel=0.05)
+
+
+def test_each_bias_shifts_every_picture_by_itself() -> None:
+    settings = SensorSettings(
+        position_noise=0.0, angle_noise=0.0, angle_bias=0.02, tip_bias_x=1e-3, tip_bias_y=-2e-3
+    )
+    for picture in shown(settings, 5):
+        assert picture.object_pose[2] == pytest.approx(POSE[2] + 0.02)
+        np.testing.assert_allclose(picture.tip_position - TIP, [1e-3, -2e-3], atol=1e-12)
+    assert np.array_equal(shown(settings, 5)[0].object_pose[:2], POSE[:2])
 
 
 def test_a_sensor_without_noise_shows_the_truth() -> None:
@@ -28,7 +46,7 @@ def test_a_sensor_without_noise_shows_the_truth() -> None:
 
 def test_the_heading_is_shown_between_minus_and_plus_half_a_turn() -> None:
     sensor = Sensor(SensorSettings(position_noise=0.0, angle_noise=0.0))
-    assert sensor.seen(np.array([0.0, 0.0, 4.0]))[2] == pytest.approx(4.0 - 2.0 * math.pi)
+    assert sensor.measured_pose(np.array([0.0, 0.0, 4.0]))[2] == pytest.approx(4.0 - 2.0 * math.pi)
 
 
 def test_pictures_are_shown_in_the_order_in_which_they_were_taken() -> None:
@@ -76,7 +94,7 @@ def test_a_frozen_pose_keeps_its_true_stamps() -> None:
 
 def test_each_trouble_draws_from_a_stream_of_its_own() -> None:
     quiet = shown(SensorSettings(), 500)
-    troubled = shown(SensorSettings(dropout=0.2), 500)
+    troubled = shown(SensorSettings(dropout=0.2, tip_noise=1e-3), 500)
     for calm, seen in zip(quiet, troubled, strict=True):
         assert seen is None or np.array_equal(seen.object_pose, calm.object_pose)
 

@@ -67,7 +67,10 @@ class Collector:
         raise RunError(f'push {number} left the face {_ATTEMPTS} times: take a shorter --duration')
 
     def _measured(self, true: Instant) -> Instant:
-        return Instant(self._sensor.seen(true.object_pose), true.tip_position)
+        return Instant(
+            self._sensor.measured_pose(true.object_pose),
+            self._sensor.measured_tip(true.tip_position),
+        )
 
     def _contact_offset(self, state: Instant) -> float:
         return self._slider.contact_offset(state.object_pose, state.tip_position)

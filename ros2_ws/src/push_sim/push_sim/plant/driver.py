@@ -1,4 +1,4 @@
-"""The robot's own driver: passes commands on, and brakes when they stop coming."""
+"""The robot's driver: executes velocity commands, and brakes when they stop arriving."""
 
 import math
 from collections import deque
@@ -9,15 +9,15 @@ from push_core.physics import Actuator, ActuatorSettings, Pair
 
 
 class Driver:
-    """Feeds the actuator; its watchdog runs on the plant's clock, not on the commands' stamps."""
+    """Feeds the actuator; its watchdog uses the plant's clock, not the stamps of the commands."""
 
     def __init__(self, settings: ActuatorSettings, timeout: float, loss: float = 0.0) -> None:
-        """At rest.
+        """Starts at rest.
 
         Args:
-            settings: of the robot.
-            timeout: it brakes after this long without a command [s].
-            loss: share of commands that get lost on their way.
+            settings: actuator of the robot.
+            timeout: time without a command after which it brakes [s].
+            loss: fraction of commands that are lost before they arrive.
         """
         self._actuator = Actuator(settings)
         self._timeout = timeout
@@ -25,7 +25,7 @@ class Driver:
         self.reset(np.random.default_rng())
 
     def reset(self, random: np.random.Generator) -> None:
-        """At rest, no command under way or known; losses are drawn from this source."""
+        """Puts the tip at rest and drops all commands; losses are drawn from `random`."""
         self._random = random
         self._actuator.reset()
         self._inbox: deque[tuple[float, Array]] = deque()
@@ -39,13 +39,13 @@ class Driver:
 
     @property
     def braking(self) -> bool:
-        """Whether the watchdog holds the tip, or brings it to rest."""
+        """Whether the watchdog is braking the tip or holding it at rest."""
         return self._braking
 
     def command(self, velocity: Array, arrival: float) -> None:
         """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one.
 
-        One that is not finite is no command: the watchdog then stops the tip.
+        A velocity that is not finite is ignored; the watchdog then stops the tip.
         """
         if not np.isfinite(velocity).all() or self._is_lost():
             return
@@ -55,11 +55,11 @@ class Driver:
         return self._loss > 0.0 and self._random.random() < self._loss
 
     def advance(self, now: float, duration: float) -> Pair:
-        """Moves on from `now` by `duration` [s]; returns the tip's mean velocity."""
+        """Advances from `now` by `duration` [s]; returns the mean velocity of the tip [m/s]."""
         self._open_inbox(now)
         self._braking = now - self._last_arrival > self._timeout
         if self._braking:
-            # a stop does not wait in the queue and does not pass the lag
+            # a stop has neither dead time nor lag
             return self._actuator.brake(duration)
         return self._actuator.advance(now, duration)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from push_core.common import InputError
-from push_core.geometry import Array
+from push_core.geometry import Array, to_world
 from push_core.physics import Slider
 
 from push_sim.plant.driver import Driver
@@ -18,8 +18,9 @@ from push_sim.plant.perturbation import (
     apply_perturbation,
 )
 from push_sim.plant.sensor import Observation, Sensor
-from push_sim.settings import PERIOD, SimSettings
+from push_sim.settings import PERIOD, SimSettings, StartOffset
 from push_sim.worlds import make_world
+from push_sim.worlds.common import Outline
 
 _NANOSECOND = 1e-9
 _NOT_COPIED = ('_settings', '_world')
@@ -27,12 +28,12 @@ _NOT_COPIED = ('_settings', '_world')
 
 @dataclass(frozen=True)
 class PlantSnapshot:
-    """The whole state of a `Plant`; no run changes it, and it can be pickled.
+    """The complete state of a `Plant`; independent of the plant, and can be pickled.
 
     Attributes:
-        settings: of the plant and of its slider.
-        world: what the world told of itself.
-        parts: all else, copied at once, so that what two of them share stays shared.
+        settings: settings of the plant, and its slider.
+        world: snapshot of the world.
+        parts: all other attributes, in one deep copy so that shared objects stay shared.
     """
 
     settings: tuple[SimSettings, Slider]
@@ -41,10 +42,10 @@ class PlantSnapshot:
 
 
 class Plant:
-    """What stands behind the topics; knows nothing of ROS.
+    """World, robot and cameras behind the topics, without ROS.
 
-    Plant time is counted in whole nanoseconds and begins at `START`: zero means 'not set' in
-    ROS, and the first exposure lies one latency before the first period.
+    Plant time is a whole number of nanoseconds and begins at `START`: a stamp of zero means 'not
+    set' in ROS, and the first exposure is one latency before the first period.
     """
 
     period = PERIOD
@@ -62,22 +63,23 @@ class Plant:
         self._ticks = 0
 
     def reset(self, object_pose: Array, tip_position: Array, seed: int) -> Observation:
-        """Puts the plant into an exact state, whatever happened before.
+        """Puts the plant into a state that does not depend on anything before.
 
         Args:
-            object_pose: (3,) x [m], y [m], theta [rad].
+            object_pose: (3,) x [m], y [m], theta [rad]; the object is placed there except for
+                the settings' `start_offset`.
             tip_position: (2,) centre of the tip [m].
-            seed: of all that is drawn at random, not negative.
+            seed: seed of everything random, not negative.
 
         Returns:
-            The first observation; the object has been resting so far.
+            The first observation, of the object at rest.
 
         Raises:
             InputError: a value is not finite, or the seed is negative.
         """
         _check_start(object_pose, tip_position, seed)
         self._ticks = 0
-        self._world.reset(object_pose, tip_position, seed)
+        self._world.reset(self._placed(object_pose, tip_position), tip_position, seed)
         random = np.random.default_rng(seed)
         self._driver.reset(random.spawn(1)[0])
         self._schedule.reset()
@@ -85,18 +87,18 @@ class Plant:
         self._applied.clear()
         self._perturb_if_due()
         self._pictures = 0
-        self._aim_next_picture()
+        self._schedule_picture()
         self._expose_until(0)
         return self._sensor.show_first()
 
     def command(self, velocity: Array, arrival: float) -> None:
-        """Hands a tip velocity (2,) [m/s] to the driver at a plant time [s], now or later."""
+        """Sends a tip velocity (2,) [m/s] to the driver; it arrives at a plant time [s]."""
         if any(velocity):
             self._schedule.motion_commanded(arrival)
         self._driver.command(velocity, arrival)
 
     def step(self) -> Observation | None:
-        """Advances one period; returns what the sensor shows then, None where that got lost."""
+        """Advances one period; returns the picture published then, None if it was lost."""
         self._perturb_if_due()
         start, duration, done = self.time, self._substep, 0
         while done < self._substeps:
@@ -109,14 +111,14 @@ class Plant:
         return self._sensor.show()
 
     def step_until_seen(self) -> Observation:
-        """Advances to the next picture; periods whose picture gets lost pass unanswered."""
+        """Advances to the next picture that is not lost."""
         while True:
             observation = self.step()
             if observation is not None:
                 return observation
 
     def perturb(self, perturbation: Perturbation) -> AppliedPerturbation:
-        """Disturbs the object now."""
+        """Applies a perturbation now."""
         applied = apply_perturbation(self._world, perturbation, self.time)
         self._applied.append(applied)
         return applied
@@ -127,25 +129,25 @@ class Plant:
         return taken
 
     def snapshot(self) -> PlantSnapshot:
-        """The whole state, for `restore`; taking it changes nothing."""
+        """The complete state, for `restore`; taking it has no effect on the plant."""
         parts = {name: part for name, part in vars(self).items() if name not in _NOT_COPIED}
         return PlantSnapshot(self._settings, self._world.snapshot(), copy.deepcopy(parts))
 
     def restore(self, snapshot: PlantSnapshot) -> None:
-        """Goes back to a snapshot of this plant, or of another one of the same settings.
+        """Restores a snapshot of this plant, or of another one with the same settings.
 
-        What follows is what followed the snapshot, to the last bit, whatever happened since.
+        The plant then continues exactly as after the snapshot, to the last bit.
 
         Raises:
-            InputError: the plant of the snapshot had other settings.
+            InputError: the plant of the snapshot has other settings.
         """
         if snapshot.settings != self._settings:
-            raise InputError('a snapshot can only be restored in a plant of the same settings')
+            raise InputError('a snapshot can only be restored in a plant with the same settings')
         self._world.restore(snapshot.world)
         vars(self).update(copy.deepcopy(snapshot.parts))
 
     def close(self) -> None:
-        """Frees what the world holds."""
+        """Frees the resources of the world."""
         self._world.close()
 
     @property
@@ -175,30 +177,41 @@ class Plant:
 
     @property
     def braking(self) -> bool:
-        """Whether the driver waits for commands, braking or at rest."""
+        """Whether the driver's watchdog is braking or holding the tip."""
         return self._driver.braking
 
     @property
     def _substep(self) -> float:
         return PERIOD / self._substeps
 
+    def _placed(self, object_pose: Array, tip_position: Array) -> Array:
+        """The object pose (3,) with the start offset, moved off the tip where they overlap."""
+        settings, slider = self._settings
+        offset = settings.start_offset
+        if offset == StartOffset():
+            return object_pose
+        x, y = to_world(object_pose, np.array([offset.x, offset.y])).tolist()
+        pose = x, y, float(object_pose[2]) + offset.theta
+        tip = float(tip_position[0]), float(tip_position[1])
+        return np.array(Outline(slider.side, slider.tip_radius).without_overlap(pose, tip))
+
     def _time(self, substep: int) -> float:
         """Plant time [s] at a substep of the current period."""
         elapsed = (self._ticks * self._substeps + substep) * self._substep
         return round((self.START + elapsed) / _NANOSECOND) * _NANOSECOND
 
-    def _aim_next_picture(self) -> None:
+    def _schedule_picture(self) -> None:
         due = self._pictures * self._substeps
         self._exposure = due - self._latency - self._sensor.extra_delay(self._substep)
 
     def _expose_until(self, substep: int) -> None:
-        """Takes the pictures that are due up to a substep of the current period."""
+        """Takes the pictures that are due by a substep of the current period."""
         period_start = self._ticks * self._substeps
         while self._exposure <= period_start + substep:
             time = self._time(self._exposure - period_start)
             self._sensor.expose(time, self.object_pose, self.tip_position)
             self._pictures += 1
-            self._aim_next_picture()
+            self._schedule_picture()
 
     def _perturb_if_due(self) -> None:
         due = self._schedule.due(self.time)

@@ -1,8 +1,8 @@
-"""The cameras: exposures some time ahead of each period's end, with noise, gaps and standstills.
+"""The cameras: pictures with noise, bias, latency, jitter, losses and freezes.
 
-What is shown at the end of period m was exposed one latency earlier, and a little more where
-there is jitter. Each source of trouble draws from a stream of its own, so that switching one on
-leaves the others as they are.
+A picture that is published at the end of a period was exposed one latency earlier, plus jitter.
+Each source of error draws from its own random stream, so that switching one on does not change
+the others.
 """
 
 from collections import deque
@@ -14,17 +14,17 @@ from push_core.geometry import Array, grid_yaw
 from push_sim.settings import PERIOD, SensorSettings
 
 FREEZE_DURATION = 0.1
-"""How long [s] the pose stands still when it does."""
+"""Duration [s] of a freeze."""
 
 
 @dataclass(frozen=True)
 class Observation:
-    """What the sensors saw.
+    """One picture.
 
     Attributes:
         time: plant time of the exposure [s].
-        object_pose: (3,) x [m], y [m], theta [rad] of the object, with noise.
-        tip_position: (2,) centre of the tip [m].
+        object_pose: (3,) measured x [m], y [m], theta [rad] of the object.
+        tip_position: (2,) measured centre of the tip [m].
     """
 
     time: float
@@ -33,62 +33,69 @@ class Observation:
 
 
 class Sensor:
-    """Takes exposures and hands out each at its time."""
+    """Takes pictures and publishes each after its latency."""
 
     def __init__(self, settings: SensorSettings) -> None:
         self._settings = settings
-        self._scale = np.array(
+        self._deviation = np.array(
             [settings.position_noise, settings.position_noise, settings.angle_noise]
         )
+        self._bias = np.array([0.0, 0.0, settings.angle_bias])
+        self._tip_bias = np.array([settings.tip_bias_x, settings.tip_bias_y])
         self.reset(np.random.default_rng())
 
     def reset(self, random: np.random.Generator) -> None:
-        """Forgets all exposures; noise is drawn from this source, the rest from its children."""
+        """Drops all pictures; pose noise is drawn from `random`, the rest from its children."""
         self._noise = random
-        self._delay, self._loss, self._freeze = random.spawn(3)
-        self._under_way: deque[Observation | None] = deque()
+        self._delay, self._loss, self._freeze, self._tip_noise = random.spawn(4)
+        self._pending: deque[Observation | None] = deque()
         self._begun = False
         self._frozen: Array | None = None
         self._frozen_left = 0
 
     def extra_delay(self, substep: float) -> int:
-        """Draws how many substeps [s] earlier than the latency says the next picture is taken."""
+        """Draws the jitter of the next picture, in substeps [s] of additional latency."""
         longest = round(self._settings.jitter / substep)
         return int(self._delay.integers(longest + 1)) if longest else 0
 
     def expose(self, time: float, object_pose: Array, tip_position: Array) -> None:
-        """Takes the next picture at a plant time [s] of an object pose (3,) and a tip (2,)."""
-        shown = self._as_frozen(self.seen(object_pose))
-        picture = Observation(time, shown, tip_position)
-        self._under_way.append(None if self._is_lost() else picture)
+        """Takes a picture of the true pose (3,) and tip (2,) at a plant time [s]."""
+        shown = self._as_frozen(self.measured_pose(object_pose))
+        picture = Observation(time, shown, self.measured_tip(tip_position))
+        self._pending.append(None if self._is_lost() else picture)
 
-    def seen(self, object_pose: Array) -> Array:
-        """A pose (3,) as one picture has it, with noise."""
-        seen = object_pose + self._scale * self._noise.standard_normal(3)
-        seen[2] = grid_yaw(seen[2])
-        return np.asarray(seen)
+    def measured_pose(self, object_pose: Array) -> Array:
+        """A pose (3,) with bias and new noise."""
+        measured = object_pose + self._deviation * self._noise.standard_normal(3) + self._bias
+        measured[2] = grid_yaw(measured[2])
+        return np.asarray(measured)
+
+    def measured_tip(self, tip_position: Array) -> Array:
+        """A tip position (2,) with bias and new noise [m]."""
+        noise = self._settings.tip_noise * self._tip_noise.standard_normal(2)
+        return np.asarray(tip_position + noise + self._tip_bias)
 
     def show_first(self) -> Observation:
-        """Hands out the first picture, which never gets lost."""
+        """Returns the first picture, which is never lost."""
         first = self.show()
         assert first is not None
         self._begun = True
         return first
 
     def show(self) -> Observation | None:
-        """Hands out the oldest picture under way; None where it got lost."""
-        return self._under_way.popleft()
+        """Returns the oldest pending picture; None if it was lost."""
+        return self._pending.popleft()
 
     def _is_lost(self) -> bool:
         rate = self._settings.dropout
         return self._begun and rate > 0.0 and self._loss.random() < rate
 
-    def _as_frozen(self, seen: Array) -> Array:
-        """The pose that is shown instead: the one at which it stands still, or what is seen."""
+    def _as_frozen(self, measured: Array) -> Array:
+        """The pose at which the camera is frozen, or the measured one."""
         if self._frozen_left == 0 and self._freezes():
-            self._frozen_left, self._frozen = round(FREEZE_DURATION / PERIOD), seen
+            self._frozen_left, self._frozen = round(FREEZE_DURATION / PERIOD), measured
         if self._frozen_left == 0 or self._frozen is None:
-            return seen
+            return measured
         self._frozen_left -= 1
         return self._frozen
 

@@ -1,4 +1,4 @@
-"""Settings of the plant, and the profiles that bundle them."""
+"""Parameters of the plant, and named profiles of them."""
 
 from push_sim.settings.plant_settings import (
     ENGINE_NAMES,
@@ -7,6 +7,7 @@ from push_sim.settings.plant_settings import (
     PerturbationSettings,
     SensorSettings,
     SimSettings,
+    StartOffset,
     WorldSettings,
 )
 from push_sim.settings.profiles import PROFILES, profile
@@ -19,6 +20,7 @@ __all__ = [
     'PerturbationSettings',
     'SensorSettings',
     'SimSettings',
+    'StartOffset',
     'WorldSettings',
     'profile',
 ]

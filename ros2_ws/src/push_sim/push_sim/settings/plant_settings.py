@@ -1,7 +1,7 @@
-"""Everything that can be said about the plant, and the profiles that bundle it.
+"""Parameters of the plant.
 
-The shape of the slider is `push_core.physics.slider.Slider`, which the controller knows too. Its
-friction on the table and on the tip belongs to the world: the controller learns or assumes it.
+The geometry of the slider is `push_core.physics.Slider`, which the controller knows too. Its
+friction on table and tip belongs to the world: the controller learns or assumes it.
 """
 
 import math
@@ -12,59 +12,67 @@ from push_core.common import InputError, nested, setting, validate
 from push_core.physics import ACTUATORS, ActuatorSettings
 
 PERIOD = 0.01
-"""Time [s] from one exposure to the next; commands are answered as often."""
-
+"""Time [s] between two exposures, and between two commands."""
 
 ENGINE_NAMES = ('bullet', 'quasi_static')
-"""What can move the bodies."""
+"""Choices of `world.engine`; the classes are in `push_sim.worlds.engines`."""
 
 
 @dataclass(frozen=True)
 class WorldSettings:
-    """The rigid bodies, their friction, and how finely time is cut.
+    """Rigid bodies, friction and time step.
 
-    The friction of the pusher and the support radius are those that `calibrate` finds in the
-    measured pushes, as docs/plant.md tells.
+    The defaults of the friction of the pusher and of the support radius were fitted to measured
+    pushes by `calibrate`, see docs/plant.md.
     """
 
     engine: str = setting(
         'bullet',
-        'physics; quasi_static: the motion cone of an ellipsoid, no inertia',
+        'physics engine; quasi_static: motion cone of an ellipsoid, no inertia',
         choices=ENGINE_NAMES,
     )
     substep: float = setting(
-        0.001, 'time step, a whole fraction of 0.01', unit='s', low=1e-5, high=PERIOD
+        0.001, 'time step; must divide 0.01 s', unit='s', low=1e-5, high=PERIOD
     )
-    friction_ground: float = setting(0.35, 'friction of slider on table', low=0.01, high=2.0)
-    friction_pusher: float = setting(0.196, 'friction of slider on tip', low=0.0, high=2.0)
+    friction_ground: float = setting(
+        0.35, 'friction coefficient of slider and table', low=0.01, high=2.0
+    )
+    friction_pusher: float = setting(
+        0.196, 'friction coefficient of slider and tip', low=0.0, high=2.0
+    )
     support_radius: float = setting(
         0.0373, 'distance of the four feet from the centre', unit='m', low=1e-3, high=0.5
     )
     pressure: str = setting(
         'calibrated',
-        'how it presses on the table; calibrated: by support_radius',
+        'distribution of the pressure on the table; calibrated: by support_radius',
         choices=('calibrated', 'uniform', 'centred', 'rim', 'random'),
     )
     friction_variation: float = setting(
         0.0, 'relative standard deviation of the friction over the table', low=0.0, high=0.3
     )
     friction_length: float = setting(
-        0.05, 'distance over which that friction varies', unit='m', low=5e-3, high=10.0
+        0.05, 'correlation length of that variation', unit='m', low=5e-3, high=10.0
     )
     friction_anisotropy: float = setting(
-        1.0, 'friction on the table along world x over that along y', low=0.25, high=4.0
+        1.0, 'friction on the table along world x, divided by that along y', low=0.25, high=4.0
     )
     mass_error: float = setting(
-        0.0, 'relative excess of the mass over what is assumed', low=-0.5, high=1.0
+        0.0, 'relative error of the assumed mass; 0.1: 10 % heavier', low=-0.5, high=1.0
     )
     size_error: float = setting(
-        0.0, 'relative excess of the side over what is assumed', low=-0.2, high=0.2
+        0.0, 'relative error of the assumed side; 0.1: 10 % larger', low=-0.2, high=0.2
     )
     stiffness: float = setting(1e5, 'stiffness of each foot', unit='N/m', low=1e3, high=1e7)
     damping: float = setting(200.0, 'damping of each foot', unit='N s/m', low=0.0, high=1e5)
-    solver_iterations: int = setting(200, 'most iterations a step', low=10, high=10000)
+    solver_iterations: int = setting(
+        200, 'iteration limit of the contact solver in a step', low=10, high=10000
+    )
     solver_residual: float = setting(
-        1e-10, 'squared impulse error of a 1 ms step at which iterating ends', low=0.0, high=1e-3
+        1e-10,
+        'squared impulse residual at which the solver of a 1 ms step stops',
+        low=0.0,
+        high=1e-3,
     )
 
     def __post_init__(self) -> None:
@@ -82,7 +90,7 @@ class WorldSettings:
 
     @property
     def uneven(self) -> bool:
-        """Whether the friction on the table depends on place or direction."""
+        """Whether the friction on the table depends on position or direction."""
         return self.friction_variation > 0.0 or self.friction_anisotropy != 1.0
 
     @property
@@ -93,23 +101,43 @@ class WorldSettings:
 
 @dataclass(frozen=True)
 class SensorSettings:
-    """The cameras that see the slider."""
+    """Cameras that measure object and tip."""
 
     position_noise: float = setting(
-        0.05e-3, 'standard deviation of x and of y', unit='m', low=0.0, high=0.1
+        0.05e-3, 'standard deviation of the x and y of the object', unit='m', low=0.0, high=0.1
     )
     angle_noise: float = setting(
-        math.radians(0.008), 'standard deviation of theta', unit='rad', low=0.0, high=1.0
+        math.radians(0.008),
+        'standard deviation of the heading of the object',
+        unit='rad',
+        low=0.0,
+        high=1.0,
+    )
+    angle_bias: float = setting(
+        0.0, 'constant error of the heading of the object', unit='rad', low=-1.0, high=1.0
+    )
+    tip_noise: float = setting(
+        0.0, 'standard deviation of the x and y of the tip', unit='m', low=0.0, high=0.1
+    )
+    tip_bias_x: float = setting(
+        0.0, 'constant error of the x of the tip', unit='m', low=-0.05, high=0.05
+    )
+    tip_bias_y: float = setting(
+        0.0, 'constant error of the y of the tip', unit='m', low=-0.05, high=0.05
     )
     latency: float = setting(
         0.005, 'time from exposure to publication', unit='s', low=0.0, high=0.5
     )
     jitter: float = setting(
-        0.0, 'most that a picture comes later, drawn for each', unit='s', low=0.0, high=0.009
+        0.0, 'largest additional latency, random for each picture', unit='s', low=0.0, high=0.009
     )
-    dropout: float = setting(0.0, 'share of pictures that get lost', low=0.0, high=0.9)
+    dropout: float = setting(0.0, 'fraction of pictures that are lost', low=0.0, high=0.9)
     freeze_rate: float = setting(
-        0.0, 'how often the pose stands still for 0.1 s', unit='1/s', low=0.0, high=5.0
+        0.0,
+        'rate of freezes of the object pose, for 0.1 s each',
+        unit='1/s',
+        low=0.0,
+        high=5.0,
     )
 
     def __post_init__(self) -> None:
@@ -129,15 +157,31 @@ class PerturbationSettings:
     """One perturbation that is applied without a service call."""
 
     kind: str = setting(
-        'none', 'what happens', choices=('none', *(kind.name.lower() for kind in PerturbationKind))
+        'none',
+        'kind of the perturbation',
+        choices=('none', *(kind.name.lower() for kind in PerturbationKind)),
     )
     magnitude: float = setting(
-        0.0, 'size in m or N s; 0 takes 30 mm, 20 mm or 0.3 N s', low=-1.0, high=1.0
+        0.0, 'magnitude [m] or [N s]; 0: 30 mm, 20 mm or 0.3 N s', low=-1.0, high=1.0
     )
-    angle: float = setting(0.0, 'world direction of an impulse', unit='rad', low=-7.0, high=7.0)
+    angle: float = setting(
+        0.0, 'direction of an impulse in the world', unit='rad', low=-7.0, high=7.0
+    )
     time: float = setting(
-        0.0, 'when, after the first non-zero command; 0 is at reset', unit='s', low=0.0, high=1e4
+        0.0, 'delay after the first non-zero command; 0: at the reset', unit='s', low=0.0, high=1e4
     )
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+@dataclass(frozen=True)
+class StartOffset:
+    """Error of the object's placement at a reset, in the frame of the requested pose."""
+
+    x: float = setting(0.0, 'offset along the normal of the face', unit='m', low=-0.1, high=0.1)
+    y: float = setting(0.0, 'offset along the face', unit='m', low=-0.1, high=0.1)
+    theta: float = setting(0.0, 'offset of the heading', unit='rad', low=-1.0, high=1.0)
 
     def __post_init__(self) -> None:
         validate(self)
@@ -151,10 +195,15 @@ class SimSettings:
     actuator: ActuatorSettings = nested(ACTUATORS['irb120'])
     sensor: SensorSettings = nested(SensorSettings())
     perturbation: PerturbationSettings = nested(PerturbationSettings())
+    start_offset: StartOffset = nested(StartOffset())
     command_timeout: float = setting(
-        0.05, 'the driver brakes after this long without a command', unit='s', low=0.001, high=10.0
+        0.05,
+        'time without a command until the driver brakes',
+        unit='s',
+        low=0.001,
+        high=10.0,
     )
-    command_loss: float = setting(0.0, 'share of commands that get lost', low=0.0, high=0.9)
+    command_loss: float = setting(0.0, 'fraction of commands that are lost', low=0.0, high=0.9)
 
     def __post_init__(self) -> None:
         validate(self)
