@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 from push_bringup.commands.parameters import page
-from push_bringup.setup.cell_parameters import installed_config, resolved
+from push_bringup.setup.cell_parameters import installed_config, recorded_parameters, resolved
 from push_bringup.setup.request import Request
 from push_core.common.errors import InputError
 
@@ -47,6 +47,15 @@ def test_a_profile_brings_the_lag_of_its_robot_to_plant_and_predictor() -> None:
         parameters = resolve(profile=profile)
         assert parameters.sim.actuator == parameters.mpc.actuator
         assert parameters.mpc.actuator.dead_time == dead_time
+
+
+def test_a_recording_of_a_time_with_more_parameters_can_be_read() -> None:
+    text = resolve().as_yaml()
+    older = text.replace(
+        'slider.side: 0.09', 'slider.side: 0.09\n    slider.support_radius: 0.02', 1
+    )
+    assert older.index('slider.support_radius') < older.index('/**/gp_server')
+    assert recorded_parameters(older, {}) == resolve()
 
 
 def test_an_override_reaches_all_nodes_that_have_it_or_the_one_that_it_names() -> None:

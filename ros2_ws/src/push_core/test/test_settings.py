@@ -10,6 +10,7 @@ from push_core.common.settings import (
     nested,
     replaced,
     setting,
+    unused_names,
     validate,
 )
 
@@ -76,8 +77,8 @@ def test_both_ends_of_a_range_belong_to_it(edge) -> None:
         ('wheels', True, 'parameter wheels takes int, not True'),
         ('open_roof', 1, 'parameter open_roof takes bool, not 1'),
         ('colour', 'green', "parameter colour is 'green', must be one of red, blue"),
-        ('engine', 3.0, "unknown parameter 'engine'; known: wheels, colour, open_roof"),
-        ('power', 3.0, "unknown parameter 'power'; known: wheels, colour, open_roof"),
+        ('engine', 3.0, "unknown parameter 'engine'; known: colour, engine.power, open_roof"),
+        ('power', 3.0, "unknown parameter 'power'; known: colour, engine.power, open_roof"),
     ],
 )
 def test_a_bad_value_is_refused_by_its_name(name, value, fault) -> None:
@@ -92,3 +93,22 @@ def test_a_settings_object_cannot_be_built_or_made_wrong() -> None:
         Engine(power=11.0)
     with pytest.raises(FrozenInstanceError):
         Engine().power = 11.0
+
+
+@dataclass(frozen=True)
+class Trailer:
+    load: float = setting(1.0, 'load', low=0.0)
+    engine: Engine = nested(Engine(), {'power': 'the car pulls'})
+
+    def __post_init__(self) -> None:
+        validate(self)
+
+
+def test_what_a_component_does_not_read_is_no_parameter_and_says_what_to_do_instead() -> None:
+    assert list(flatten(Trailer())) == ['load']
+    assert unused_names(Trailer()) == {'engine.power': 'the car pulls'}
+    with pytest.raises(InputError) as caught:
+        replaced(Trailer(), {'engine.power': 3.0}, 'trailer')
+    expected = "parameter 'engine.power' of trailer would have no effect: the car pulls"
+    assert str(caught.value) == expected
+    assert replaced(Trailer(), {'load': 2.0}).engine == Engine()

@@ -2,7 +2,7 @@
 
 from typing import Any, TypeVar
 
-from push_core.common import Described, InputError, flatten, replaced
+from push_core.common import Described, flatten, reject_unknown, replaced
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
@@ -23,10 +23,12 @@ def declared(node: Node, defaults: T) -> T:
     Raises:
         InputError: an unknown parameter, a wrong type or a value out of range.
     """
-    known = flatten(defaults)
-    reject_unknown(node, set(known))
+    # rclpy would ignore what the node does not have
+    given = (name for name in node._parameter_overrides if not name.startswith(_NOT_OURS))
+    reject_unknown(given, defaults, node.get_name())
     changes = {
-        name: _declare(node, name, value, described) for name, (value, described) in known.items()
+        name: _declare(node, name, value, described)
+        for name, (value, described) in flatten(defaults).items()
     }
     return replaced(defaults, changes)
 
@@ -35,18 +37,6 @@ def override(node: Node, name: str, default: T) -> T:
     """The value that the command line or the parameter file gives for one name, undeclared."""
     found = node._parameter_overrides.get(name)
     return default if found is None else found.value
-
-
-def reject_unknown(node: Node, known: set[str]) -> None:
-    """Fails the start on a parameter that the node does not have; rclpy would ignore it.
-
-    Raises:
-        InputError: names the parameter and those that exist.
-    """
-    for name in node._parameter_overrides:
-        if name not in known and not name.startswith(_NOT_OURS):
-            listed = ', '.join(sorted(known))
-            raise InputError(f'unknown parameter {name!r} of {node.get_name()}; known: {listed}')
 
 
 def _declare(node: Node, name: str, value: Any, described: Described) -> Any:

@@ -8,7 +8,7 @@ from typing import Any
 import yaml
 from ament_index_python.packages import get_package_share_directory
 from push_bag.record import RecorderSettings
-from push_core.common import InputError, flatten, replaced
+from push_core.common import InputError, flatten, replaced, unused_names
 from push_gp.server import ServerSettings
 from push_mpc.settings import MpcSettings, mpc_settings
 from push_sim.node import NodeSettings, node_settings
@@ -78,7 +78,12 @@ def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParam
     Raises:
         InputError: the text is no parameter file, a parameter is unknown, or a value out of range.
     """
-    return _checked(_from_text(text, 'the recorded parameters'), overrides)
+    values = _from_text(text, 'the recorded parameters')
+    for node, defaults in _defaults(values).items():
+        # older recordings name them; they had no effect then either
+        for name in unused_names(defaults):
+            values[node].pop(name, None)
+    return _checked(values, overrides)
 
 
 def _from_file(path: Path) -> dict[str, dict[str, Any]]:
@@ -143,7 +148,7 @@ def _checked(values: dict[str, dict[str, Any]], overrides: Mapping[str, object])
         for node, key in _owners(defaults, name):
             values[node][key] = value
     changed = _defaults(values)
-    settings = [replaced(changed[node], values[node]) for node in NODES]
+    settings = [replaced(changed[node], values[node], node) for node in NODES]
     return CellParameters(*settings)
 
 

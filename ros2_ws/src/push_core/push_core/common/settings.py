@@ -6,7 +6,7 @@ settings. Nested ones become dotted names: `actuator.dead_time`.
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 from push_core.common.errors import InputError
@@ -55,9 +55,17 @@ def setting(
     return dataclasses.field(default=default, metadata={'described': described})
 
 
-def nested(default: Any) -> Any:
-    """A field that holds another settings object."""
-    return dataclasses.field(default_factory=lambda: default)
+def nested(default: Any, unused: Mapping[str, str] | None = None) -> Any:
+    """A field that holds another settings object.
+
+    Args:
+        default: that object.
+        unused: its fields that the component does not read, each with what to do instead. They
+            are no parameters of the component, and keep their defaults.
+    """
+    return dataclasses.field(
+        default_factory=lambda: default, metadata={'unused': dict(unused or {})}
+    )
 
 
 def flatten(settings: Any, prefix: str = '') -> dict[str, tuple[Any, Described]]:
@@ -67,22 +75,56 @@ def flatten(settings: Any, prefix: str = '') -> dict[str, tuple[Any, Described]]
         value = getattr(settings, field.name)
         name = prefix + field.name
         if dataclasses.is_dataclass(value):
-            flat.update(flatten(value, name + '.'))
+            inner = flatten(value, name + '.')
+            for hidden in field.metadata.get('unused', ()):
+                del inner[f'{name}.{hidden}']
+            flat.update(inner)
         else:
             flat[name] = (value, field.metadata['described'])
     return flat
 
 
-def replaced(settings: T, changes: Mapping[str, Any]) -> T:
+def unused_names(settings: Any) -> dict[str, str]:
+    """The dotted names that `nested` was told to leave out, with what to do instead."""
+    return {
+        f'{field.name}.{name}': instead
+        for field in dataclasses.fields(settings)
+        for name, instead in field.metadata.get('unused', {}).items()
+    }
+
+
+def reject_unknown(names: Iterable[str], settings: Any, owner: str = '') -> None:
+    """Checks that all dotted names are parameters of a settings object.
+
+    Args:
+        names: to be checked.
+        settings: the object.
+        owner: whose parameters they are, for the error; '' leaves it out.
+
+    Raises:
+        InputError: names the parameter, and those that exist or what to do instead.
+    """
+    known, instead = flatten(settings), unused_names(settings)
+    of = f' of {owner}' if owner else ''
+    for name in names:
+        if name in instead:
+            raise InputError(f'parameter {name!r}{of} would have no effect: {instead[name]}')
+        if name not in known:
+            raise InputError(f'unknown parameter {name!r}{of}; known: {", ".join(sorted(known))}')
+
+
+def replaced(settings: T, changes: Mapping[str, Any], owner: str = '') -> T:
     """A copy with some dotted names changed, checked.
+
+    Args:
+        settings: to be copied.
+        changes: values by dotted name.
+        owner: see `reject_unknown`.
 
     Raises:
         InputError: an unknown name, a wrong type or a value out of range.
     """
-    known = flatten(settings)
-    for name in changes:
-        if name not in known:
-            raise InputError(f'unknown parameter {name!r}; known: {", ".join(known)}')
+    reject_unknown(changes, settings, owner)
     return _replaced(settings, changes, '')
 
 

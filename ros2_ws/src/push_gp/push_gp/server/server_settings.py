@@ -7,6 +7,10 @@ from push_core.physics import Slider
 
 from push_gp.models import ANALYTICAL, NOMINAL_DISTANCE
 
+_UNUSED = dict.fromkeys(
+    ('mass', 'friction_ground', 'tip_radius'), 'the motion cone does not depend on it'
+)
+
 
 @dataclass(frozen=True)
 class ServerSettings:
@@ -27,7 +31,7 @@ class ServerSettings:
         low=1e-4,
         high=0.1,
     )
-    slider: Slider = nested(Slider())
+    slider: Slider = nested(Slider(), _UNUSED)
 
     def __post_init__(self) -> None:
         validate(self)

@@ -101,7 +101,10 @@ class ControllerSettings:
         True, 'roll the measured state forward through the commands already sent'
     )
     recontact: RecontactSettings = nested(RecontactSettings())
-    actuator: ActuatorSettings = nested(ActuatorSettings())
+    actuator: ActuatorSettings = nested(
+        ActuatorSettings(),
+        {'deceleration_limit': 'the prediction knows no stop by the driver'},
+    )
     limits: SafetyLimits = nested(SafetyLimits())
     good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)
 

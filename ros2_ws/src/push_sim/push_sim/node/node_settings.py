@@ -33,15 +33,22 @@ class StartSettings:
         return slider.tip_position(self.object_pose, self.p_y, self.gap)
 
 
+# what the controller assumes of the slider's friction is not what the plant has
+_WORLDS_OWN = {
+    name: f"the plant's own is world.{name}"
+    for name in ('friction_ground', 'friction_pusher', 'support_radius')
+}
+
+
 @dataclass(frozen=True)
 class NodeSettings(SimSettings):
-    """The plant's settings and the node's own; of the slider only sides, mass and tip count."""
+    """The plant's settings and the node's own."""
 
     profile: str = setting('irb120', 'bundle of defaults', choices=tuple(PROFILES))
     mode: str = setting('realtime', 'who sets the pace', choices=('realtime', 'lockstep'))
     seed: int = setting(0, 'of all that is drawn at random', low=0, high=2**62)
     start: StartSettings = nested(StartSettings())
-    slider: Slider = nested(Slider())
+    slider: Slider = nested(Slider(), _WORLDS_OWN)
 
 
 def node_settings(profile_name: str) -> NodeSettings:
