@@ -1,6 +1,6 @@
-"""Messages to arrays: the only place that knows the fields of the recorded messages.
+"""Converts recorded messages to arrays; no other module knows their fields.
 
-Topics that come at each tick are decoded by columns (`cdr_columns`), rare ones as messages.
+Topics with a message per tick are decoded by columns (`cdr_columns`), rare ones as messages.
 """
 
 from typing import Any
@@ -15,7 +15,7 @@ from push_bag.file import Columns
 from push_bag.run.series import Floats, ModelFacts, PerturbationEvent, Reference
 
 STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
-# fields of each topic that is read by columns
+# fields of the topics that are decoded by columns
 POSE_FIELDS = (
     *STAMP,
     'pose.position.x',
@@ -44,7 +44,7 @@ def stamps(columns: Columns) -> NDArray[np.int64]:
 
 
 def planar_poses(columns: Columns) -> Floats:
-    """X [m], y [m] and heading [rad] (n, 3) of poses that are turned about z only."""
+    """X [m], y [m] and heading [rad] (n, 3) of poses that rotate about z only."""
     turns = zip(columns['pose.orientation.z'], columns['pose.orientation.w'], strict=True)
     yaw = [quaternion_to_yaw(z, w) for z, w in turns]
     return np.column_stack([columns['pose.position.x'], columns['pose.position.y'], yaw])
@@ -61,7 +61,7 @@ def velocities(columns: Columns) -> Floats:
 
 
 def ticks(columns: Columns) -> Floats:
-    """The STATE_COLUMNS (n, 12) of controller states."""
+    """Controller states (n, 12) with the columns STATE_COLUMNS."""
     parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
     parts += [columns['input'], columns['nominal_input']]
     parts += [columns[name] for name in SOLVER_FIELDS]
@@ -74,7 +74,7 @@ def nanoseconds(message: Any) -> int:
 
 
 def reference(message: Any) -> Reference:
-    """The reference of a NominalTrajectory.
+    """The reference of a NominalTrajectory message.
 
     Raises:
         InputError: its arrays are empty or of different lengths.
@@ -99,10 +99,10 @@ def reference(message: Any) -> Reference:
 
 
 def model(message: Any) -> ModelFacts:
-    """The model of a ModelInfo."""
+    """The facts of a ModelInfo message."""
     return ModelFacts(message.points, message.model_hash, message.kind)
 
 
 def perturbation(message: Any) -> PerturbationEvent:
-    """The perturbation of a Perturbation."""
+    """The event of a Perturbation message."""
     return PerturbationEvent(nanoseconds(message), message.kind, message.magnitude)

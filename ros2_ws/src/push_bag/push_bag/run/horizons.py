@@ -1,6 +1,6 @@
-"""Where the controller planned to push the object, for the report's animation.
+"""Planned paths of the object, for the report's animation.
 
-A score needs none of it, so that horizons stay as they lie in the bag until somebody draws them.
+The score does not use them, so they are decoded only when they are drawn.
 """
 
 from collections.abc import Iterable
@@ -14,13 +14,13 @@ from push_node.stamps import to_nanoseconds
 
 from push_bag.file import Record
 
-POINTS = 6  # of each horizon: 17 mm apart, and 0.2 mm beside the curve of the 8-track
-LONGEST_AGE_NS = 200_000_000  # an older one is no plan any more
+POINTS = 6  # of each horizon: 17 mm apart on the 8-track, chords within 0.2 mm of the curve
+LONGEST_AGE_NS = 200_000_000  # an older horizon is not shown
 
 
 @dataclass(frozen=True)
 class Horizons:
-    """The planned paths of a run, in order.
+    """The planned paths of a run, in order of time.
 
     Attributes:
         stamp: of the tick that planned each (m,) [ns], strictly increasing.
@@ -32,7 +32,7 @@ class Horizons:
 
     @classmethod
     def of(cls, records: Iterable[Record]) -> 'Horizons':
-        """Decodes messages; of those that share a stamp the last one counts.
+        """Decodes Horizon messages; of messages with equal stamps the last one counts.
 
         Raises:
             InputError: one is not a Horizon.
@@ -43,20 +43,20 @@ class Horizons:
         return cls(np.array(stamps, np.int64), points.reshape(-1, POINTS, 2))
 
     def at(self, stamps: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Points (n, POINTS, 2) [m] of the last plans at stamps (n,); NaN without one."""
-        found = np.full((stamps.size, POINTS, 2), np.nan)
+        """Points (n, POINTS, 2) [m] of the latest horizons at stamps (n,); NaN without one."""
+        points = np.full((stamps.size, POINTS, 2), np.nan)
         if self.stamp.size:
             index = np.searchsorted(self.stamp, stamps, side='right') - 1
             age = stamps - self.stamp[index]
             fresh = (index >= 0) & (age <= LONGEST_AGE_NS)
-            found[fresh] = self.points[index[fresh]]
-        return found
+            points[fresh] = self.points[index[fresh]]
+        return points
 
 
 def _message(record: Record) -> Any:
     message = record.message()
     if len(message.x) != len(message.y):
-        raise InputError(f'a message on {record.topic.name} has more x than y, or less')
+        raise InputError(f'a message on {record.topic.name} has x and y of different lengths')
     return message
 
 

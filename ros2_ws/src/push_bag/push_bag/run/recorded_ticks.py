@@ -1,4 +1,4 @@
-"""The ticks of a recorded controller: what it knew at each of them, and what it sent."""
+"""The ticks of a recorded controller: inputs and command of each."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -30,19 +30,19 @@ TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
 @dataclass(frozen=True)
 class RecordedTick:
-    """One tick.
+    """One tick of the controller.
 
     Attributes:
-        stamp: of its command [ns].
-        published: when it was told of [ns].
-        mode: of the controller afterwards.
-        exposure: of the poses [s]; NaN where it answered none.
-        now: when it was computed [s].
+        stamp: of the poses that it answered, and of its command [ns].
+        published: when its state was published [ns].
+        mode: of the controller after the tick.
+        exposure: of the poses [s]; NaN for a tick without poses.
+        now: when the tick was computed [s].
         model_id: of the model in use.
-        stop_reason: why it stopped; empty if it did not.
-        object_pose: (3,) as measured; None where it answered none, or the bag lacks it.
-        tip: (2,) as measured; None likewise.
-        velocity: (2,) as sent; None where nothing was.
+        stop_reason: why the controller stopped; empty if it did not.
+        object_pose: (3,) measured [m, m, rad]; None without poses, or if the bag lacks it.
+        tip: (2,) measured [m]; None likewise.
+        velocity: (2,) commanded [m/s]; None if no command was sent or recorded.
     """
 
     stamp: int
@@ -61,7 +61,7 @@ class RecordedRun:
     """A bag read as ticks.
 
     Attributes:
-        reader: of the bag; its facts and attachments are complete.
+        reader: of the bag, read to its end.
     """
 
     def __init__(self, path: Path) -> None:
@@ -101,25 +101,25 @@ class RecordedRun:
         return self._states.stamp.size
 
     def _tick(self, row: int) -> RecordedTick:
-        stamp, told = int(self._states.stamp[row]), int(self._states.published[row])
+        stamp, published = int(self._states.stamp[row]), int(self._states.published[row])
         mode, exposure, now = self._states.values[row].tolist()
-        found = {name: self._values(name, stamp, told) for name in self._rows}
+        values = {name: self._values(name, stamp, published) for name in self._rows}
         model_id, stop_reason = self._names[row]
         return RecordedTick(
             stamp=stamp,
-            published=told,
+            published=published,
             mode=int(mode),
             exposure=exposure,
             now=now,
             model_id=model_id,
             stop_reason=stop_reason,
-            object_pose=found[OBJECT_POSE],
-            tip=found[TIP_POSE],
-            velocity=found[COMMAND],
+            object_pose=values[OBJECT_POSE],
+            tip=values[TIP_POSE],
+            velocity=values[COMMAND],
         )
 
-    def _values(self, name: str, stamp: int, told: int) -> Array | None:
-        row = self._by_stamp[name].row(stamp, told)
+    def _values(self, name: str, stamp: int, published: int) -> Array | None:
+        row = self._by_stamp[name].row(stamp, published)
         return None if row is None else np.asarray(self._rows[name].values[row])
 
     def _tick_values(self, columns: Columns) -> Array:
@@ -128,18 +128,26 @@ class RecordedRun:
 
 
 class ByStamp:
-    """Where the messages of a topic are, by stamp; a plant that starts anew uses stamps again."""
+    """Finds messages of a topic by stamp; a simulator that is reset repeats stamps."""
 
     def __init__(self, stamps: Sequence[int], published: Sequence[int]) -> None:
-        """Takes stamps and publish times [ns] of all messages, in the order of the file."""
+        """Indexes all messages by stamp.
+
+        Args:
+            stamps: of the messages in the order of the file [ns].
+            published: their publish times [ns].
+        """
         self._published = published
-        self._places: dict[int, list[int]] = {}
+        self._rows_by_stamp: dict[int, list[int]] = {}
         for row, stamp in enumerate(stamps):
-            self._places.setdefault(stamp, []).append(row)
+            self._rows_by_stamp.setdefault(stamp, []).append(row)
 
     def row(self, stamp: int, time: int) -> int | None:
-        """The last message with a stamp [ns] that was published by a time [ns]."""
-        rows = self._places.get(stamp)
+        """Index of the last message with this stamp [ns] published until a time [ns].
+
+        The first with this stamp if all were published later; None without any.
+        """
+        rows = self._rows_by_stamp.get(stamp)
         if not rows:
             return None
         published = [row for row in rows if self._published[row] <= time]

@@ -1,4 +1,4 @@
-"""Reads a bag into the time series that the score and the report work on."""
+"""Reads a bag into the time series that score and report use."""
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -32,7 +32,7 @@ from push_bag.run.topic_table import TopicTable
 
 
 def read_run(path: Path) -> RunSeries:
-    """Reads a bag from end to end, decoding only what the score needs.
+    """Reads a whole bag; decodes only the fields that the score needs.
 
     Args:
         path: run folder or MCAP file.
@@ -50,7 +50,7 @@ def read_run(path: Path) -> RunSeries:
 
 
 class _Rows:
-    """Collects the rows of each series while the bag streams by."""
+    """Collects the rows of each series, record by record."""
 
     def __init__(self) -> None:
         self.traffic: dict[str, Traffic] = {}
@@ -79,7 +79,7 @@ class _Rows:
         }
 
     def add(self, record: Record) -> None:
-        """Counts a record and keeps what the series need of it."""
+        """Counts a record and adds it to its series."""
         known = self._topics.get(record.topic.name)
         if known is None:
             known = self._topics[record.topic.name] = self._new_topic(record.topic.name)
@@ -89,7 +89,7 @@ class _Rows:
             read(record)
 
     def series(self, reader: BagReader) -> RunSeries:
-        """All that was collected.
+        """The series of all records.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -105,7 +105,7 @@ class _Rows:
             pusher=tables[interface.PUSHER_POSE.short_name],
             commands=tables[interface.PUSHER_VELOCITY_CMD.short_name],
             states=tables[interface.CONTROLLER_STATE.short_name],
-            # the cell also knows of nodes that died, whose controller could not say so
+            # the cell also reports nodes that died
             stop_reason=self._end_reason or self._stop_reason,
             reference=self._reference,
             model=self._model,
@@ -119,8 +119,7 @@ class _Rows:
         other = self._sources.setdefault(own, name)
         if own in self._readers and other != name:
             raise InputError(
-                f'the bag holds two cells ({other}, {name}), of which one can be scored: record '
-                'each into a bag of its own'
+                f'the bag holds two cells ({other}, {name}); record each into a bag of its own'
             )
         return seen, self._readers.get(own)
 

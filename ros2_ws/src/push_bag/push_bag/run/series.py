@@ -1,8 +1,8 @@
-"""The time series of a run as arrays: what the score and the report work on.
+"""The time series of a run as arrays, for score and report.
 
-Stamps and publish times are int64 nanoseconds, so that a command is matched with its pose exactly;
-everything else is in SI units. Of messages that share a stamp (a simulator that waits publishes
-its pose again) the first one counts.
+Stamps and publish times are int64 nanoseconds, so that commands match their poses exactly; all
+else is in SI units. Of messages with equal stamps (a waiting simulator repeats its pose) the first
+one counts.
 """
 
 from collections.abc import Mapping
@@ -25,7 +25,7 @@ class Stamped:
     Attributes:
         stamp: (n,) of the messages' headers [ns], strictly increasing.
         published: (n,) publish times [ns].
-        values: (n, k) as the field that holds the series says.
+        values: (n, k); columns and units as `RunSeries` states them.
     """
 
     stamp: Nanoseconds
@@ -33,7 +33,7 @@ class Stamped:
     values: Floats
 
     def at(self, stamps: Nanoseconds) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-        """Where each of the stamps is: indices (m,), and (m,) whether it is there at all."""
+        """Indices (m,) of messages with these stamps (m,), and whether each exists (m,)."""
         if not self.stamp.size:
             return np.zeros(stamps.size, np.intp), np.zeros(stamps.size, np.bool_)
         index = np.minimum(np.searchsorted(self.stamp, stamps), self.stamp.size - 1)
@@ -65,7 +65,7 @@ class Reference:
 
     @property
     def duration(self) -> float:
-        """Time [s] from start to end."""
+        """Duration [s]."""
         return float(self.time[-1])
 
     def pose_at(self, time: Floats) -> Floats:
@@ -85,14 +85,14 @@ class ModelFacts:
 
 @dataclass(frozen=True)
 class PerturbationEvent:
-    """A perturbation: when [ns], of what kind, how large (m or N s)."""
+    """A perturbation: stamp [ns], kind as in Perturbation.msg, magnitude [m or N s]."""
 
     stamp: int
     kind: int
     magnitude: float
 
 
-# modes in which the reference runs
+# modes in which reference time advances
 FOLLOWING = (ControllerState.TRACKING, ControllerState.RECONTACT)
 # columns of `RunSeries.states`
 STATE_COLUMNS = (
@@ -117,18 +117,18 @@ class RunSeries:
 
     Attributes:
         facts: of the run, as recorded.
-        finished: whether the bag came to its proper end.
-        traffic: received and lost by topic.
+        finished: whether the bag has its footer.
+        traffic: message counts by topic.
         object: pose (n, 3) of the square [m, m, rad].
         pusher: position (n, 2) of the tip [m].
         commands: velocity (n, 2) in the world frame [m/s].
         states: (n, len(STATE_COLUMNS)) of the controller's ticks, see `state`.
-        stop_reason: why the run ended before its end, else why the controller stopped last; empty
-            where neither is told of.
+        stop_reason: why the cell ended the run early, else why the controller stopped last; empty
+            if neither is recorded.
         reference: None where none was recorded.
         model: None where none was recorded.
         perturbations: in order.
-        horizons: what the controller planned, as it lies in the bag; see `Horizons`.
+        horizons: planned paths, not decoded; see `Horizons`.
     """
 
     facts: Mapping[str, str]
@@ -145,10 +145,10 @@ class RunSeries:
     horizons: tuple[Record, ...]
 
     def state(self, name: str) -> Floats:
-        """One column (n,) of the controller's ticks, by its name in STATE_COLUMNS."""
+        """The column (n,) of `states` with this name, see STATE_COLUMNS."""
         return self.states.values[:, STATE_COLUMNS.index(name)]
 
     @property
     def following(self) -> NDArray[np.bool_]:
-        """Whether the reference ran in each of the controller's ticks (n,)."""
+        """Whether reference time advanced in each of the controller's ticks (n,)."""
         return np.isin(self.state('mode'), FOLLOWING)

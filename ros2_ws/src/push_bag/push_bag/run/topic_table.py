@@ -1,4 +1,4 @@
-"""One topic's messages as a table that grows while the bag streams by."""
+"""The messages of one topic as a table that grows record by record."""
 
 from collections.abc import Callable, Collection
 
@@ -9,11 +9,11 @@ from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves
 from push_bag.run.conversions import stamps
 from push_bag.run.series import Floats, Stamped
 
-BATCH = 4096  # messages decoded at once: enough to be quick, few enough to stay small
+BATCH = 4096  # messages decoded at once; bounds the memory
 
 
 class TopicTable:
-    """Collects a topic's messages and decodes them batch by batch."""
+    """Collects the messages of a topic and decodes them in batches."""
 
     def __init__(
         self, fields: Collection[str], width: int, values: Callable[[Columns], Floats]
@@ -21,9 +21,9 @@ class TopicTable:
         """Starts empty.
 
         Args:
-            fields: of the message that are needed, its stamp among them.
-            width: k, numbers in a row.
-            values: makes the rows (n, k) of the fields.
+            fields: to decode, including those of the stamp.
+            width: number k of values per message.
+            values: converts the decoded fields to rows (n, k).
         """
         self._fields = fields
         self._values = values
@@ -34,7 +34,7 @@ class TopicTable:
         self._published: list[int] = []
 
     def add(self, record: Record) -> None:
-        """Takes one message.
+        """Adds one message.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -47,7 +47,7 @@ class TopicTable:
             self._decode()
 
     def stamped(self) -> Stamped:
-        """All messages by stamp; of those that share a stamp the first one.
+        """The messages ordered by stamp; of messages with equal stamps the first one.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -57,7 +57,7 @@ class TopicTable:
         return Stamped(rows.stamp[first], rows.published[first], rows.values[first])
 
     def in_file_order(self) -> Stamped:
-        """All messages as they came, whatever their stamps.
+        """All messages in the order of the file.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -82,12 +82,12 @@ class TopicTable:
         if self._topic is None or not self._messages:
             return
         try:
-            found = columns(self._messages, self._layout, self._fields)
+            fields = columns(self._messages, self._layout, self._fields)
         except ValueError as error:
             kind = self._topic.type_name
             raise InputError(f'a message on {self._topic.name} is not a {kind}: {error}') from None
         published = np.array(self._published, np.uint64).astype(np.int64)
-        self._blocks.append(Stamped(stamps(found), published, self._values(found)))
+        self._blocks.append(Stamped(stamps(fields), published, self._values(fields)))
         self._messages, self._published = [], []
 
 

@@ -1,8 +1,8 @@
-"""The numbers of a score by name: to compare runs, to average over them, to hold them to a bound.
+"""Figures of a score by name, and upper bounds on them (`score --fail-above`).
 
-A figure is named by its path in the score's JSON, `tracking_error_mm.mean`; the figures of the
-tracking error may be named without it, `mean`. `lost` is the number of lost messages, `incomplete`
-is 1 for a run that was not completed and 0 for one that was.
+A figure is named by its path in the score's JSON, such as `tracking_error_mm.mean`; `mean` alone
+means that of the tracking error. `lost` is the number of lost messages; `incomplete` is 1 for a
+run that was not completed, else 0.
 """
 
 import math
@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
 from push_core.common import InputError, RunError
 
 from push_bag.score.score_table import messages_lost
@@ -37,19 +36,19 @@ COMPARED = (
 )
 DEFAULT_GROUP = 'tracking_error_mm'
 WORDS = ('stop_reason', 'profile', 'mode', 'recovered_from')
-"""Of a score; null where a run has none."""
+"""Entries of a score that are text, or null."""
 
 
 @dataclass(frozen=True)
 class Bound:
-    """A figure and the value [its unit] that it must not exceed."""
+    """The largest allowed value of a figure, in its unit."""
 
     figure: str
     value: float
 
 
 def figure(score: Mapping[str, Any], name: str) -> float:
-    """One number of a score; NaN where the run has none.
+    """A figure of a score; NaN if the run does not have it.
 
     Raises:
         InputError: a score has no figure of this name.
@@ -58,25 +57,18 @@ def figure(score: Mapping[str, Any], name: str) -> float:
         return float(messages_lost(score))
     if name == 'incomplete':
         return float(not score['completed'])
-    found: Any = score
+    value: Any = score
     for part in name.split('.'):
-        if not isinstance(found, Mapping) or part not in found:
+        if not isinstance(value, Mapping) or part not in value:
             raise InputError(f'a score has no figure {name!r}; name one such as {COMPARED[0]}')
-        found = found[part]
-    if isinstance(found, Mapping | str) or name in WORDS:
-        raise InputError(f'{name!r} is no number of the score; name one such as {COMPARED[0]}')
-    return math.nan if found is None else float(found)
-
-
-def mean_and_spread(values: Sequence[float]) -> tuple[float, float]:
-    """Mean and sample standard deviation; NaN where there are too few values."""
-    known = np.array([value for value in values if math.isfinite(value)])
-    mean = float(known.mean()) if known.size else math.nan
-    return mean, float(known.std(ddof=1)) if known.size > 1 else math.nan
+        value = value[part]
+    if isinstance(value, Mapping | str) or name in WORDS:
+        raise InputError(f'{name!r} is not a number; name a figure such as {COMPARED[0]}')
+    return math.nan if value is None else float(value)
 
 
 def bound(text: str) -> Bound:
-    """A bound as it is written on the command line: `mean=3.0`, `solve_ms.p99=2`.
+    """Parses a bound of the command line, such as `mean=3.0` or `solve_ms.p99=2`.
 
     Raises:
         InputError: it is written otherwise.
@@ -93,15 +85,15 @@ def bound(text: str) -> Bound:
 
 
 def check_bounds(scores: Sequence[tuple[str, Mapping[str, Any]]], bounds: Sequence[Bound]) -> None:
-    """Holds every run to every bound.
+    """Checks every run against every bound.
 
     Args:
         scores: name and score of each run.
-        bounds: what no figure may exceed; a figure that a run has not exceeds it.
+        bounds: to check; a missing figure exceeds its bound.
 
     Raises:
         InputError: a score has no such figure.
-        RunError: names the first figures that are too high.
+        RunError: a figure exceeds its bound; names the first one.
     """
     broken = [
         _complaint(each, figure(score, each.figure), run)
@@ -116,5 +108,5 @@ def check_bounds(scores: Sequence[tuple[str, Mapping[str, Any]]], bounds: Sequen
 
 def _complaint(broken: Bound, value: float, run: str) -> str:
     if math.isnan(value):
-        return f'{run} has no {broken.figure}, which was not to be above {broken.value:g}'
+        return f'{run} has no {broken.figure}, which must not exceed {broken.value:g}'
     return f'{broken.figure} is {value:.4g} in {run}, above {broken.value:g}'

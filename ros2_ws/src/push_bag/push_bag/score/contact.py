@@ -1,8 +1,8 @@
-"""Where the pusher was on the pushed face, from the recorded poses of both.
+"""Position of the tip relative to the pushed face, from the recorded poses.
 
     gap = -side/2 - tip radius - x of the tip in the body frame (0 in contact),
     p_y = y of the tip in the body frame.
-A contact loss is an interval while the reference ran in which the gap is above LOST_GAP.
+A contact loss is an interval during tracking in which the gap exceeds LOST_GAP.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ LOST_GAP = 0.5e-3  # [m]
 
 @dataclass(frozen=True)
 class Contact:
-    """The contact wherever both poses were recorded while the reference ran.
+    """Gap and contact offset at each instant during tracking with both poses.
 
     Attributes:
         stamp: (n,) [ns].
@@ -33,7 +33,7 @@ class Contact:
 
 
 def contact(run: RunSeries, reference: Reference) -> Contact:
-    """The contact over the tracked part of a run."""
+    """Gap and contact offset of a run during tracking."""
     index, found = run.pusher.at(run.object.stamp)
     used = found & during_tracking(run, run.object.stamp)
     pose, tip = run.object.values[used], run.pusher.values[index[used]]

@@ -1,8 +1,8 @@
-"""How many messages of each topic came, and how many did not.
+"""Received and lost messages of each topic.
 
-lost             gaps in the publisher's numbers; without numbers, gaps in the grid of stamps,
-missing_stamps   gaps in the grid of stamps: what was never published counts as well,
-middleware_lost  what the middleware itself told the recorder.
+lost             gaps in the sequence numbers; without numbers, gaps in the grid of stamps,
+missing_stamps   gaps in the grid of stamps; includes messages that were never published,
+middleware_lost  messages that the middleware reported as lost.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ POSE_PERIOD_NS = 10_000_000
 
 
 def message_counts(run: RunSeries) -> dict[str, dict[str, int | None]]:
-    """Counts per topic; None where nothing tells."""
+    """Counts by topic; None where unknown."""
     stamps = {
         interface.OBJECT_POSE.short_name: run.object.stamp,
         interface.PUSHER_POSE.short_name: run.pusher.stamp,

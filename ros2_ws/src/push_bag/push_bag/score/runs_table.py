@@ -1,12 +1,14 @@
-"""Several runs side by side, for people and for scripts."""
+"""Scores of several runs: a row for each, mean and spread, or two side by side."""
 
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from push_bag.score.bounds import COMPARED, figure, mean_and_spread
+import numpy as np
 
-# what fits on a line; the JSON has all of COMPARED
+from push_bag.score.bounds import COMPARED, figure
+
+# the figures that fit on a line; the JSON has all of COMPARED
 SHOWN = {
     'mean mm': 'tracking_error_mm.mean',
     'rms mm': 'tracking_error_mm.rms',
@@ -23,7 +25,7 @@ Scores = Sequence[tuple[str, Mapping[str, Any]]]  # name and score of each run
 
 
 def runs_table(scores: Scores) -> str:
-    """One line for each run, then mean and spread (sample standard deviation) over the runs."""
+    """One line for each run, then mean and sample standard deviation over the runs."""
     rows = [('run', 'completed', *SHOWN)]
     for name, score in scores:
         figures = (figure(score, path) for path in SHOWN.values())
@@ -36,7 +38,7 @@ def runs_table(scores: Scores) -> str:
 
 
 def comparison_table(scores: Scores) -> str:
-    """Figure by figure: the first run, the second one, and how much the second is higher."""
+    """One line for each figure: both runs, and the difference second minus first."""
     (first, one), (second, other) = scores
     rows = [('figure', first, second, 'difference')]
     for path in COMPARED:
@@ -46,7 +48,7 @@ def comparison_table(scores: Scores) -> str:
 
 
 def runs_object(scores: Scores) -> dict[str, Any]:
-    """All scores with mean and spread of each compared figure, for `--json`."""
+    """All scores, and mean and spread of each compared figure, for `score --json`."""
     over = {path: _over_runs(scores, path) for path in COMPARED}
     return {
         'runs': [{'run': name, **score} for name, score in scores],
@@ -56,7 +58,11 @@ def runs_object(scores: Scores) -> dict[str, Any]:
 
 
 def _over_runs(scores: Scores, path: str) -> tuple[float, float]:
-    return mean_and_spread([figure(score, path) for _, score in scores])
+    """Mean and sample standard deviation of a figure; NaN where there are too few values."""
+    values = np.array([figure(score, path) for _, score in scores])
+    known = values[np.isfinite(values)]
+    mean = float(known.mean()) if known.size else math.nan
+    return mean, float(known.std(ddof=1)) if known.size > 1 else math.nan
 
 
 def _known(value: float) -> float | None:

@@ -1,8 +1,7 @@
-"""The score of a run: one JSON object, defined in one place.
+"""The score of a run: one JSON object.
 
-The formulas stand where the numbers are computed: tracking.py, contact.py, timing.py, traffic.py.
-`completed`: the controller reached mode DONE without a stop, and the run ended well
-(`push_core.tracks.is_completed`).
+Formulas: tracking.py, contact.py, timing.py, message_counts.py. `completed`: the controller
+reached mode DONE without a stop, and the end of the run satisfies `push_core.tracks.is_completed`.
 """
 
 import math
@@ -35,7 +34,7 @@ def score_run(folder: Path) -> dict[str, Any]:
         folder: run folder or MCAP file; an unfinished one is scored as far as it goes.
 
     Returns:
-        What `score --json` prints; None where a figure does not exist.
+        The object that `score --json` prints; None where a run has no such figure.
 
     Raises:
         InputError: there is no readable bag, or no reference in it.
@@ -44,7 +43,7 @@ def score_run(folder: Path) -> dict[str, Any]:
 
 
 def score_series(run: RunSeries) -> dict[str, Any]:
-    """The score of a run that was read already.
+    """The score of a run as `read_run` returns it.
 
     Raises:
         InputError: the run holds no reference to score it against.
@@ -62,8 +61,8 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         'limited': limited(run),
         'messages': message_counts(run),
     }
-    found: dict[str, Any] = finite(score)
-    return found
+    without_nan: dict[str, Any] = finite(score)
+    return without_nan
 
 
 def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
@@ -83,13 +82,13 @@ def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
 
 
 def limited(run: RunSeries) -> dict[str, int]:
-    """Ticks in which each limit changed the command while the reference ran."""
+    """Number of ticks during tracking in which each limit changed the command."""
     bits = run.state('limited')[run.following].astype(np.int64)
     return {name: int(np.count_nonzero(bits & bit)) for name, bit in LIMITS.items()}
 
 
 def holds(run: RunSeries) -> int:
-    """Times that the controller held still for want of a fresh pose."""
+    """How often the controller stood still because it had no fresh pose."""
     holding = run.state('mode') == ControllerState.HOLDING
     return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
 

@@ -1,4 +1,4 @@
-"""The score of a run as a table for people."""
+"""The score of a run as text."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -7,7 +7,7 @@ Row = tuple[str, str]
 
 
 def score_table(score: Mapping[str, Any]) -> str:
-    """The score as aligned lines; the last one says what was lost."""
+    """The score as a table of names and values, then a line about lost messages."""
     rows = score_rows(score)
     width = max(len(name) for name, _ in rows)
     lines = [f'{name:<{width}}  {value}' for name, value in rows]
@@ -36,12 +36,12 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
 
 
 def messages_lost(score: Mapping[str, Any]) -> int:
-    """Messages lost on all topics together."""
+    """Number of lost messages on all topics."""
     return sum(counts['lost'] or 0 for counts in score['messages'].values())
 
 
 def messages_line(score: Mapping[str, Any]) -> str:
-    """One line such as `0 of 14130 messages lost`, naming the topics that lost some."""
+    """A line such as `0 of 14130 messages lost`, with the topics that lost messages."""
     topics = score['messages']
     lost = {name: counts['lost'] for name, counts in topics.items() if counts['lost']}
     sent = sum(counts['received'] for counts in topics.values()) + sum(lost.values())
@@ -51,7 +51,7 @@ def messages_line(score: Mapping[str, Any]) -> str:
 
 def _bag(score: Mapping[str, Any]) -> str:
     if score['recovered_from']:
-        return f'recovered from {score["recovered_from"]}: something may be missing'
+        return f'recovered from {score["recovered_from"]}; messages may be missing'
     return 'finished' if score['bag_finished'] else 'unfinished: the recording was cut short'
 
 

@@ -1,4 +1,4 @@
-"""The straight segments of a polyline, and how far points are from them."""
+"""Straight segments of a polyline, and signed distances to them."""
 
 from dataclasses import dataclass
 
@@ -7,18 +7,18 @@ from numpy.typing import NDArray
 
 from push_bag.run import Floats
 
-SHORTEST = 1e-30  # [m^2]; a segment without length is a point
+SHORTEST = 1e-30  # [m^2]; avoids a division by zero for a segment without length
 
 
 @dataclass(frozen=True)
 class Segments:
-    """Segments (n,) of a path (n + 1, 2); first and last go on straight beyond the ends.
+    """Segments (n,) of a path (n + 1, 2); the first and the last are half-lines.
 
     Attributes:
-        x, y: where each begins [m].
-        along_x, along_y: from there to its end [m].
-        length_2: squared length [m^2].
-        low, high: of the share of its length that belongs to it.
+        x, y: start points [m].
+        along_x, along_y: vectors from start to end [m].
+        length_2: squared lengths [m^2].
+        low, high: range of the position on the segment, in units of its length.
     """
 
     x: Floats
@@ -35,7 +35,7 @@ class Segments:
         x, y = path[:-1].T.copy()
         along_x, along_y = np.diff(path, axis=0).T.copy()
         low, high = np.zeros(x.size), np.ones(x.size)
-        # to be early or late is no error across
+        # half-lines: a point before the start or after the end is no error across the path
         low[0], high[-1] = -np.inf, np.inf
         length_2 = np.maximum(along_x**2 + along_y**2, SHORTEST)
         return cls(x, y, along_x, along_y, length_2, low, high)

@@ -1,4 +1,4 @@
-"""A run as one table: a row for each tick of the controller, columns in SI units."""
+"""A run as one table: one row per tick of the controller, columns in SI units."""
 
 from typing import TypeAlias
 
@@ -15,7 +15,7 @@ COUNTS = ('mode', 'iterations', 'solver_status', 'limited')
 
 
 def tick_table(run: RunSeries) -> TickTable:
-    """Columns (n,) by name; NaN where a tick has no such figure.
+    """Columns (n,) by name; NaN where a tick has no such value.
 
     Raises:
         InputError: the run holds no tick or no reference.
@@ -51,14 +51,14 @@ def _measured(run: RunSeries) -> TickTable:
 
 def _errors(tracking: Tracking, stamp: Nanoseconds) -> TickTable:
     values = np.column_stack(
-        [tracking.wanted, tracking.distance, tracking.cross_track, tracking.heading]
+        [tracking.reference, tracking.distance, tracking.cross_track, tracking.heading]
     )
     names = (
         *('reference_x_m', 'reference_y_m', 'reference_theta_rad'),
         *('tracking_error_m', 'cross_track_m', 'heading_error_rad'),
     )
-    found = _at(Stamped(tracking.stamp, tracking.stamp, values), stamp)
-    return dict(zip(names, found.T, strict=True))
+    columns = _at(Stamped(tracking.stamp, tracking.stamp, values), stamp).T
+    return dict(zip(names, columns, strict=True))
 
 
 def _contact(run: RunSeries, reference: Reference, stamp: Nanoseconds) -> TickTable:
@@ -69,8 +69,8 @@ def _contact(run: RunSeries, reference: Reference, stamp: Nanoseconds) -> TickTa
 
 
 def _at(rows: Stamped, stamp: Nanoseconds) -> Floats:
-    """The values (n, k) of these stamps (n,), NaN where there are none."""
-    found = np.full((stamp.size, rows.values.shape[1]), np.nan)
-    index, there = rows.at(stamp)
-    found[there] = rows.values[index[there]]
-    return found
+    """The values (n, k) at these stamps (n,); NaN where there are none."""
+    values = np.full((stamp.size, rows.values.shape[1]), np.nan)
+    index, exists = rows.at(stamp)
+    values[exists] = rows.values[index[exists]]
+    return values

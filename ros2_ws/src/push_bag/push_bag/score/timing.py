@@ -1,8 +1,8 @@
-"""How long the loop took.
+"""Times of the control loop.
 
-pose to command = publish time of a command - publish time of the pose that carries its stamp;
-a deadline miss is a pose in TRACKING whose command came more than DEADLINE later, or never.
-A run in one process or from a file has no middleware and therefore no pose to command.
+pose to command = publish time of a command - publish time of the pose with the same stamp;
+a deadline miss is a pose during tracking whose command came more than DEADLINE later, or never.
+A run in one process or from a file has no middleware and so no time from pose to command.
 """
 
 from dataclasses import dataclass
@@ -22,11 +22,11 @@ class LoopTiming:
     """Times of the ticks in TRACKING [ms].
 
     Attributes:
-        solve: (n,) of the quadratic program.
+        solve: (n,) of the QP.
         tick: (n,) pose received to command published, by the controller's clock.
-        pose_to_command: (m,) over the middleware, of the poses that were answered; empty for a
-            run in one process.
-        deadline_misses: poses answered too late or never.
+        pose_to_command: (m,) over the middleware, of poses with a command; empty for a run in one
+            process.
+        deadline_misses: number of poses whose command came too late or never.
     """
 
     solve: Floats
@@ -36,26 +36,26 @@ class LoopTiming:
 
 
 def timing(run: RunSeries) -> LoopTiming:
-    """The times of a run."""
+    """The times of a run during tracking."""
     ticks = run.state('mode') == ControllerState.TRACKING
-    latency, unanswered = _answers(run)
+    latency, without_command = _answers(run)
     late = int(np.count_nonzero(latency > DEADLINE * 1e3))
     solve, tick = (_measured(run.state(name)[ticks]) for name in ('solve_ms', 'tick_ms'))
-    return LoopTiming(solve, tick, latency, late + unanswered)
+    return LoopTiming(solve, tick, latency, late + without_command)
 
 
 def _measured(times: Floats) -> Floats:
-    """Without the ticks that nobody timed, as in a run of the real cell."""
+    """The finite times; imported runs of the real cell have NaN."""
     return times[np.isfinite(times)]
 
 
 def _answers(run: RunSeries) -> tuple[Floats, int]:
-    """Latency (m,) [ms] of each answered pose in TRACKING, and how many had no answer."""
+    """Latency (m,) [ms] of each pose with a command, and the number of poses without one."""
     tracked = during_tracking(run, run.object.stamp)
     index, answered = run.commands.at(run.object.stamp[tracked])
     sent = run.object.published[tracked][answered]
-    unanswered = int(np.count_nonzero(~answered))
+    without_command = int(np.count_nonzero(~answered))
     if run.facts.get('mode') in WITHOUT_MIDDLEWARE:
-        return np.zeros(0), unanswered
+        return np.zeros(0), without_command
     latency: Floats = (run.commands.published[index[answered]] - sent).astype(np.float64) * 1e-6
-    return latency, unanswered
+    return latency, without_command

@@ -1,10 +1,10 @@
-"""How far the object was from its reference.
+"""Errors of the object against its reference.
 
-For every pose recorded while the reference ran (TRACKING, RECONTACT) the controller states give
+For every pose recorded during tracking (modes TRACKING and RECONTACT) the controller states give
 the reference time of its exposure:
     tracking error = |position(t) - reference position(reference time)|, the paper's metric;
     cross-track error = signed distance to the nearest point of the reference path near that time,
-        positive to the left of the path, whose ends go on straight;
+        positive to the left of the path; the path is extended by straight lines;
     heading error = heading(t) - reference heading(reference time), wrapped.
 Poses count where 0 < reference time <= the reference's duration.
 """
@@ -18,30 +18,30 @@ from push_core.geometry import wrap_angles
 from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
 from push_bag.score.segments import Segments
 
-NEAR = 0.06  # [m] of path to either side in which the nearest point is looked for
-START_SHARE = 0.1  # of the reference that `after_start` leaves out
-TIME_ROUNDING = 1e-9  # [s] by which the last sample may seem to lie after the end
+NEAR = 0.06  # [m] of path before and after, in which the nearest point is searched
+START_SHARE = 0.1  # of the reference, excluded by `after_start`
+TIME_ROUNDING = 1e-9  # [s] by which rounding may put the last sample after the end
 
 
 @dataclass(frozen=True)
 class Tracking:
-    """Errors of the poses that count, in order of time.
+    """Errors at each pose that counts, in order of time.
 
     Attributes:
         stamp: (n,) of the poses [ns].
         reference_time: (n,) [s].
         pose: (n, 3) measured [m, m, rad].
-        wanted: (n, 3) reference pose at the reference time.
+        reference: (n, 3) reference pose at the reference time [m, m, rad].
         distance: (n,) tracking error [m].
         cross_track: (n,) [m].
         heading: (n,) heading error [rad] in [-pi, pi).
-        after_start: (n,) whether the pose lies past the first tenth of the reference.
+        after_start: (n,) whether the pose comes after the first tenth of the reference.
     """
 
     stamp: Nanoseconds
     reference_time: Floats
     pose: Floats
-    wanted: Floats
+    reference: Floats
     distance: Floats
     cross_track: Floats
     heading: Floats
@@ -49,13 +49,13 @@ class Tracking:
 
 
 def tracking_interval(run: RunSeries) -> tuple[int, int] | None:
-    """First and last stamp [ns] at which the reference ran; None for never."""
+    """First and last stamp [ns] of the ticks during tracking; None without any."""
     stamps = run.states.stamp[run.following]
     return (int(stamps[0]), int(stamps[-1])) if stamps.size else None
 
 
 def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
-    """Whether each of the stamps (n,) lies where the reference ran."""
+    """Whether each of the stamps (n,) lies in the tracking interval."""
     interval = tracking_interval(run)
     if interval is None:
         return np.zeros(stamps.size, np.bool_)
@@ -63,7 +63,7 @@ def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
 
 
 def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
-    """Reference time (n,) [s] at each of the stamps (n,) while the reference ran."""
+    """Reference time (n,) [s] at each of the stamps (n,) during tracking."""
     ticks = run.following
     known = run.states.stamp[ticks]
     # differences of stamps: a float64 of the stamps themselves would round to 0.2 us
@@ -82,15 +82,15 @@ def track(run: RunSeries, reference: Reference) -> Tracking:
     time = reference_times(run, stamp) if stamp.size else np.zeros(0)
     counts = (time > 0.0) & (time <= reference.duration + TIME_ROUNDING)
     stamp, pose, time = stamp[counts], pose[counts], time[counts]
-    wanted = reference.pose_at(time)
+    target = reference.pose_at(time)
     return Tracking(
         stamp=stamp,
         reference_time=time,
         pose=pose,
-        wanted=wanted,
-        distance=np.hypot(*(pose[:, :2] - wanted[:, :2]).T),
+        reference=target,
+        distance=np.hypot(*(pose[:, :2] - target[:, :2]).T),
         cross_track=cross_track(reference, pose[:, :2], time),
-        heading=wrap_angles(pose[:, 2] - wanted[:, 2]),
+        heading=wrap_angles(pose[:, 2] - target[:, 2]),
         after_start=time > START_SHARE * reference.duration,
     )
 
