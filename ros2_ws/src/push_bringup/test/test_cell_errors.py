@@ -78,4 +78,4 @@ def test_an_output_that_is_a_file_is_named(refused, tmp_path) -> None:
 
 
 def test_a_model_does_not_go_with_the_analytical_controller(refused) -> None:
-    assert '--controller gp' in refused('--controller', 'analytical')
+    assert '--model is not for' in refused('--controller', 'analytical')

@@ -21,9 +21,7 @@ def add_recompute_arguments(parser: Parser) -> None:
     group.add_argument(
         '--ask', action='store_true', help='have a running mpc_node compute them, in lockstep'
     )
-    group.add_argument(
-        '--controller', choices=('gp', 'analytical'), default='', help='another controller'
-    )
+    group.add_argument('--controller', metavar='NAME', default='', help='another controller')
     group.add_argument('--model', type=Path, metavar='FILE', help='another model file')
     group.add_argument(
         '-p',

@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from push_core.common import Parser, finite, run_command
-from push_gp.models import ANALYTICAL
 from push_sim.settings import PROFILES
 
 from push_bringup.bench.options import (
+    add_controller,
     add_lap_options,
     check_positive,
     opened_store,
@@ -18,7 +18,7 @@ from push_bringup.bench.options import (
 from push_bringup.bench.rows import AblationRow, experiment_json
 from push_bringup.bench.tables import ablation_rows
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob, push_all
-from push_bringup.setup import default_model
+from push_bringup.setup import model_for
 
 EXPERIMENTS = (*PAPER_MM, Experiment('eight', 0.15))
 VARIANTS: Mapping[str, Mapping[str, object]] = {
@@ -50,10 +50,7 @@ def parser() -> Parser:
     described.prog = 'bench ablation'
     described.add_argument('--seeds', type=int, default=3, help='laps of each (default 3)')
     described.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
-    described.add_argument('--controller', choices=('gp', 'analytical'), default='gp')
-    described.add_argument(
-        '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
-    )
+    add_controller(described)
     add_lap_options(described, Path('runs/bench_ablation.jsonl'))
     return described
 
@@ -90,9 +87,7 @@ def work(arguments: argparse.Namespace) -> None:
 
 def _jobs(arguments: argparse.Namespace) -> list[LapJob]:
     """All laps: by variant, then by experiment, then by seed."""
-    model = ANALYTICAL
-    if arguments.controller == 'gp':
-        model = arguments.model or str(default_model())
+    model = model_for(arguments.controller, arguments.model)
     return [
         LapJob(experiment, arguments.controller, model, arguments.profile, seed, overrides)
         for overrides in VARIANTS.values()

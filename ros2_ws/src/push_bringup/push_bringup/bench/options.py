@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from push_core.common import InputError, Parser, check_place, finite, json_text
+from push_mpc.settings import CONTROLLERS
 
 from push_bringup.bench.tables import TABLES
 from push_bringup.experiment import LapStore, cores
@@ -32,7 +33,20 @@ def add_lap_options(parser: Parser, laps: Path) -> None:
 def add_controllers(parser: Parser) -> None:
     """The option that chooses the controllers."""
     parser.add_argument(
-        '--controllers', choices=('gp', 'analytical'), nargs='+', default=['gp', 'analytical']
+        '--controllers', choices=tuple(CONTROLLERS), nargs='+', default=list(CONTROLLERS)
+    )
+
+
+def add_controller(parser: Parser) -> None:
+    """The option that chooses one controller, and that of its model."""
+    parser.add_argument('--controller', choices=tuple(CONTROLLERS), default='gp')
+    add_model(parser)
+
+
+def add_model(parser: Parser) -> None:
+    """The option that names a model file."""
+    parser.add_argument(
+        '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
     )
 
 

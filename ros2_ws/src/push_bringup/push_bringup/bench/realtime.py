@@ -9,13 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from push_core.common import Parser, RunError, run_command
-from push_gp.models import ANALYTICAL
 from tqdm import tqdm
 
 from push_bringup.bench.options import add_controllers, check_positive, print_found
 from push_bringup.bench.rows import RealTimeRow, times_json
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob, LapStore, push_all
-from push_bringup.setup import code_key, default_model
+from push_bringup.setup import code_key, model_for
 
 LAPS_FILE = 'in_process.jsonl'
 EPILOG = """Example: bench realtime --runs 3 --controllers gp
@@ -79,9 +78,8 @@ def _in_process(
     cases: Sequence[tuple[Experiment, str]], runs: int, store: LapStore
 ) -> list[float]:
     """Mean errors [mm] of all runs, one process at a time."""
-    models = {'gp': str(default_model()), 'analytical': ANALYTICAL}
     jobs = [
-        LapJob(experiment, controller, models[controller], 'irb120', seed)
+        LapJob(experiment, controller, model_for(controller), 'irb120', seed)
         for experiment, controller in cases
         for seed in range(runs)
     ]

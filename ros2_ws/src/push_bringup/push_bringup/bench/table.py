@@ -6,19 +6,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from push_core.common import Parser, run_command, write_atomically
-from push_gp.models import ANALYTICAL, load_model
+from push_gp.models import load_model
 from push_sim.settings import PROFILES
 
 from push_bringup.bench.options import (
     add_controllers,
     add_lap_options,
+    add_model,
     check_positive,
     opened_store,
     print_found,
 )
 from push_bringup.bench.rows import PaperRow
 from push_bringup.experiment import PAPER_MM, LapJob, push_all
-from push_bringup.setup import default_model
+from push_bringup.setup import model_for
 
 EPILOG = """Example: bench table --profile irb120 ideal --seeds 5 --html table.html
 The laps are pushed in process, with all that is random drawn from seeds 0, 1, 2, …
@@ -39,9 +40,7 @@ def parser() -> Parser:
     described.add_argument(
         '--profile', choices=tuple(PROFILES), nargs='+', default=['irb120'], help='of the plant'
     )
-    described.add_argument(
-        '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
-    )
+    add_model(described)
     add_controllers(described)
     add_lap_options(described, Path('runs/bench_table.jsonl'))
     return described
@@ -57,7 +56,7 @@ def work(arguments: argparse.Namespace) -> int:
     store = opened_store(arguments)
     if arguments.model is not None:
         load_model(Path(arguments.model))
-    models = {'gp': arguments.model or str(default_model()), 'analytical': ANALYTICAL}
+    models = {name: model_for(name, arguments.model) for name in arguments.controllers}
     cases = [
         (experiment, controller, profile)
         for profile in arguments.profile

@@ -5,6 +5,7 @@ from html import escape
 
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
+from push_mpc.settings import CONTROLLERS
 from push_report.figure_style import GREY, INK, RUN_COLOURS, styled
 from push_report.page import drawn, page, section
 
@@ -13,7 +14,7 @@ from push_bringup.experiment import LapJob
 
 HEADS = ('track', 'speed', 'perturbation', 'controller', 'profile', 'laps', 'median', 'paper')
 TALL = 380
-COLUMNS = ('gp', 'analytical')
+COLUMNS = tuple(CONTROLLERS)
 
 
 def table_page(rows: Sequence[PaperRow]) -> str:

@@ -10,14 +10,13 @@ from pathlib import Path
 import numpy as np
 from push_core.common import Parser, run_command, write_atomically
 from push_core.geometry import Array
-from push_gp.models import ANALYTICAL
 from push_mpc.qp import NX, Problem
 from tqdm import tqdm
 
-from push_bringup.bench.options import print_found
+from push_bringup.bench.options import add_controller, print_found
 from push_bringup.bench.rows import SolverRow
 from push_bringup.rivals import IN_SI_UNITS, SOLVERS, Solver, exact, recorded
-from push_bringup.setup import default_model
+from push_bringup.setup import model_for
 
 Tick = tuple[Problem, ...]
 SPEED_UNIT = 1e-2  # [m/s]; of every input in our set-up, of forces by the speed they make
@@ -38,10 +37,7 @@ def parser() -> Parser:
     """The command line."""
     described = Parser('Solves the quadratic programs of a lap by every solver.', EPILOG)
     described.prog = 'bench timing'
-    described.add_argument('--controller', choices=('gp', 'analytical'), default='gp')
-    described.add_argument(
-        '--model', metavar='FILE', help='of the gp controller; default: 200 simulated pushes'
-    )
+    add_controller(described)
     described.add_argument('--seed', type=int, default=0, help="of the plant's noise (default 0)")
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
     described.add_argument('--html', type=Path, metavar='FILE', help='draw the times as well')
@@ -54,9 +50,7 @@ def work(arguments: argparse.Namespace) -> int:
     Raises:
         InputError: the model cannot be read.
     """
-    model = ANALYTICAL
-    if arguments.controller == 'gp':
-        model = arguments.model or str(default_model())
+    model = model_for(arguments.controller, arguments.model)
     ticks = recorded(arguments.controller, model, arguments.seed)
     rows = list(_rows(ticks))
     found = {

@@ -15,7 +15,7 @@ from push_core.common import InputError, Parser, RunError, run_command
 from push_core.tracks import TRACKS
 from push_gp.models import ANALYTICAL, read_sealed
 from push_mpc.plan import Plan, planned
-from push_mpc.settings import PRESETS
+from push_mpc.settings import CONTROLLERS, PRESETS
 from push_node.override_text import parsed_override
 from push_sim.settings import PROFILES
 
@@ -54,7 +54,7 @@ def parser() -> Parser:
     tracks = ', '.join(TRACKS)
     parser.add_argument('--track', default='eight', help=f'{tracks} or a .csv of x, y [m]')
     parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
-    parser.add_argument('--controller', choices=('gp', 'analytical'), default='gp')
+    parser.add_argument('--controller', choices=tuple(CONTROLLERS), default='gp')
     parser.add_argument(
         '--model', type=Path, metavar='FILE', help='for gp; default: 200 simulated pushes'
     )
@@ -145,8 +145,8 @@ def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path)
 
 
 def _request(arguments: argparse.Namespace) -> Request:
-    if arguments.model and arguments.controller == 'analytical':
-        raise InputError('--model is for --controller gp; the analytical one needs none')
+    if arguments.model and not CONTROLLERS[arguments.controller].trained_model:
+        raise InputError(f'--model is not for --controller {arguments.controller}')
     if not arguments.speed > 0.0:
         raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
     overrides = dict(parsed_override(text) for text in arguments.param)
@@ -183,7 +183,7 @@ def _namespace(text: str) -> str:
 
 
 def _model(arguments: argparse.Namespace) -> str:
-    if arguments.controller == 'analytical':
+    if not CONTROLLERS[arguments.controller].trained_model:
         return ANALYTICAL
     model = arguments.model
     if model is None:

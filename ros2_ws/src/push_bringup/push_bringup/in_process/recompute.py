@@ -20,6 +20,7 @@ from push_core.geometry import Array
 from push_gp.models import ANALYTICAL, PushModel, model_named
 from push_mpc.loop import Controller, Mode
 from push_mpc.plan import planned
+from push_mpc.settings import CONTROLLERS
 from tqdm import tqdm
 
 from push_bringup.in_process.loop import tabulated
@@ -160,8 +161,8 @@ def _model(recorded: str, changes: Changes, files: dict[str, Path]) -> str:
     """Name of the model: that of the run, unless the controller was changed to the analytical."""
     if changes.model is not None:
         return str(changes.model)
-    if changes.controller == ANALYTICAL:
+    if changes.controller and not CONTROLLERS[changes.controller].trained_model:
         return ANALYTICAL
     if changes.controller and recorded == ANALYTICAL:
-        raise InputError('name a model file for --controller gp with --model')
+        raise InputError(f'name a model file for --controller {changes.controller} with --model')
     return str(files.get(Path(recorded).name, recorded))

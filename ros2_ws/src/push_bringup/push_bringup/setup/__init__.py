@@ -7,7 +7,7 @@ from push_bringup.setup.cell_parameters import (
     recorded_parameters,
     resolved,
 )
-from push_bringup.setup.default_model import default_model
+from push_bringup.setup.default_model import default_model, model_for
 from push_bringup.setup.provenance import (
     MODEL_SOURCES,
     code_key,
@@ -28,6 +28,7 @@ __all__ = [
     'git_revision',
     'installed_config',
     'keep_logs',
+    'model_for',
     'new_run_folder',
     'node_defaults',
     'processor',

@@ -1,4 +1,4 @@
-"""The model that the cell uses when none is named: trained once on simulated pushes, cached.
+"""The default model of the cell: trained once on simulated pushes, cached.
 
 Other sources or libraries make another model: their hash is part of the file's name.
 """
@@ -8,12 +8,20 @@ import sys
 from pathlib import Path
 
 from push_core.common import InputError
-from push_gp.models import VERSION, read_sealed
+from push_gp.models import ANALYTICAL, VERSION, read_sealed
+from push_mpc.settings import CONTROLLERS
 
 from push_bringup.setup.provenance import MODEL_SOURCES, code_key
 
 POINTS = 200
 SEED = 0
+
+
+def model_for(controller: str, given: str | None = None) -> str:
+    """Name of the model for a controller: the given file, the default one or 'analytical'."""
+    if not CONTROLLERS[controller].trained_model:
+        return ANALYTICAL
+    return given or str(default_model())
 
 
 def default_model() -> Path:

@@ -2,8 +2,8 @@
 
 import math
 import time as clock
-from collections.abc import Callable
 from dataclasses import dataclass
+from pkgutil import resolve_name
 
 import numpy as np
 from push_core.geometry import Array, rotation, wrap_angle
@@ -13,14 +13,10 @@ from push_mpc.estimate import DisturbanceEstimator, Predictor
 from push_mpc.loop.tick import FOLLOWING, Mode, Tick
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Plan, consistent_plan
-from push_mpc.qp import ForceSteering, PlannedStates, Problem, Programs, Steering, VelocitySteering
-from push_mpc.settings import ControllerSettings, approach, departure, is_apart
+from push_mpc.qp import PlannedStates, Problem, Programs, Steering
+from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
-_STEERINGS: dict[str, Callable[[ControllerSettings, Slider], Steering]] = {
-    'gp': VelocitySteering,
-    'analytical': ForceSteering,
-}
 _STILL = np.zeros(2)
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
@@ -36,7 +32,7 @@ class PreparedModel:
 
 
 class Controller:
-    """PreparedModel-predictive tracking of a plan with a tabulated model."""
+    """Model-predictive tracking of a plan with a tabulated model."""
 
     def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
         self.settings = settings
@@ -46,7 +42,7 @@ class Controller:
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider)
         self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
-        self._steering = _STEERINGS[settings.controller](settings, slider)
+        self._steering = _steering(settings, slider)
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps + 1)
         self._samples = self._steps.copy()
@@ -261,6 +257,12 @@ class Controller:
             desired, self._sent, tip, self.settings.limits, self.settings.period
         )
         tick.input = turn.T @ tick.velocity
+
+
+def _steering(settings: ControllerSettings, slider: Slider) -> Steering:
+    steering_class = resolve_name(CONTROLLERS[settings.controller].steering)
+    steering: Steering = steering_class(settings, slider)
+    return steering
 
 
 def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:

@@ -1,11 +1,13 @@
 """Settings of the controller and of its node."""
 
 from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.settings.presets import PRESETS
 from push_mpc.settings.recontact import approach, departure, is_apart
 
 __all__ = [
+    'CONTROLLERS',
     'PRESETS',
     'ControllerSettings',
     'MpcSettings',

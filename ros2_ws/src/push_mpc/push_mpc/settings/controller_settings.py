@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from push_core.common import nested, setting, validate
 from push_core.physics import ActuatorSettings, SafetyLimits
 
+from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.recontact import RecontactSettings
 
 
@@ -60,8 +61,8 @@ class ControllerSettings:
 
     controller: str = setting(
         'gp',
-        'gp: model of the server; analytical: limit surface, Family of Modes',
-        choices=('gp', 'analytical'),
+        '; '.join(f'{name}: {kind.text}' for name, kind in CONTROLLERS.items()),
+        choices=tuple(CONTROLLERS),
     )
     period: float = setting(0.01, 'time between two ticks', unit='s', low=0.001, high=0.1)
     horizon_steps: int = setting(20, 'steps of the horizon', low=2, high=200)
