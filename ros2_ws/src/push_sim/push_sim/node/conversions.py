@@ -1,4 +1,4 @@
-"""Messages to arrays and back."""
+"""Conversions between messages and arrays."""
 
 import numpy as np
 from builtin_interfaces.msg import Time
@@ -33,7 +33,7 @@ def commanded_velocity(message: TwistStamped) -> Array:
 
 
 def perturbation_message(applied: AppliedPerturbation, stamp: Time) -> PerturbationMessage:
-    """What happened, for the record."""
+    """An applied perturbation; `stamp` is its time."""
     message = PerturbationMessage(kind=int(applied.kind), magnitude=applied.magnitude)
     message.header.frame_id = FRAME
     message.header.stamp = stamp

@@ -1,4 +1,4 @@
-"""Parameters of the simulator node: those of the plant, and how and where it starts."""
+"""Parameters of the simulator node: those of the plant, and its start."""
 
 from dataclasses import dataclass, fields
 
@@ -12,7 +12,7 @@ from push_sim.settings import PROFILES, SimSettings, profile
 
 @dataclass(frozen=True)
 class StartSettings:
-    """Where slider and tip are when the node starts; `push_sim/reset` puts them elsewhere."""
+    """Slider and tip at the start of the node; `push_sim/reset` moves them."""
 
     x: float = setting(0.0, 'x of the slider', unit='m', low=-10.0, high=10.0)
     y: float = setting(0.0, 'y of the slider', unit='m', low=-10.0, high=10.0)
@@ -29,7 +29,7 @@ class StartSettings:
         return np.array([self.x, self.y, self.theta])
 
     def tip_position(self, slider: Slider) -> Array:
-        """Centre (2,) of the tip [m] beside a slider."""
+        """Centre (2,) of the tip [m] at the face of a slider."""
         return slider.tip_position(self.object_pose, self.p_y, self.gap)
 
 
@@ -44,15 +44,19 @@ _WORLDS_OWN = {
 class NodeSettings(SimSettings):
     """The plant's settings and the node's own."""
 
-    profile: str = setting('irb120', 'bundle of defaults', choices=tuple(PROFILES))
-    mode: str = setting('realtime', 'who sets the pace', choices=('realtime', 'lockstep'))
-    seed: int = setting(0, 'of all that is drawn at random', low=0, high=2**62)
+    profile: str = setting('irb120', 'set of defaults', choices=tuple(PROFILES))
+    mode: str = setting(
+        'realtime',
+        'realtime: wall clock; lockstep: each command steps the plant',
+        choices=('realtime', 'lockstep'),
+    )
+    seed: int = setting(0, 'seed of everything random', low=0, high=2**62)
     start: StartSettings = nested(StartSettings())
     slider: Slider = nested(Slider(), _WORLDS_OWN)
 
 
 def node_settings(profile_name: str) -> NodeSettings:
-    """The node's defaults with those of a profile.
+    """The node's parameters with the defaults of a profile.
 
     Raises:
         InputError: there is no such profile.

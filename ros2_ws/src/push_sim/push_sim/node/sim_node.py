@@ -1,4 +1,4 @@
-"""The simulator as a node: parameters, topics, services; the plant does the work."""
+"""The simulator node: parameters, topics and services around a `Plant`."""
 
 from collections.abc import Callable, Sequence
 
@@ -34,7 +34,7 @@ _PACES: dict[str, Callable[[Node, Plant, Callable[[Observation], None]], Pace]] 
 
 
 class SimNode(Node):  # type: ignore[misc]
-    """Publishes what the sensors see and obeys velocity commands."""
+    """Publishes measured poses and executes velocity commands."""
 
     def __init__(self) -> None:
         super().__init__('sim_node')
@@ -55,7 +55,7 @@ class SimNode(Node):  # type: ignore[misc]
         self.get_logger().info(f'{profile}, {mode}; {settled(mode)}')
 
     def destroy_node(self) -> None:
-        """Frees the physics server as well."""
+        """Also closes the plant."""
         super().destroy_node()
         self._plant.close()
 
@@ -75,7 +75,7 @@ class SimNode(Node):  # type: ignore[misc]
 
     def _publish(self, observation: Observation) -> None:
         stamp = to_stamp(self._pace.stamp(observation.time))
-        # the tip first: who waits for the object's pose has both then
+        # the tip first, so that a subscriber that waits for the object's pose has both
         self._pusher.publish(position_message(observation.tip_position, stamp))
         self._object.publish(pose_message(observation.object_pose, stamp))
         self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))

@@ -1,14 +1,15 @@
 """The moving bodies of the PyBullet world: slider and tip.
 
-- The slider is a box on four feet that stand on a circle, not on its corners: that gives the
-  friction moment of the measured limit surface.
-- The feet are springs. Four rigid feet share the weight as the solver's order of rows pleases,
-  and the slider turns to one side; springs share it as the load does.
-- The tip is a sphere, one contact point at half height, so heavy that the slider cannot slow it.
+- The slider is a box on four feet on a circle, not on its corners, so that its friction moment is
+  that of the measured limit surface.
+- The feet are springs. The distribution of load over four rigid feet is indeterminate and depends
+  on the solver's row order, so the slider would turn to one side.
+- The tip is a sphere with one contact point at half height. Its mass is so large that the slider
+  does not slow it down.
 - PyBullet multiplies the friction coefficients of two bodies: the slider has 1, table and tip
-  have theirs.
-- Multibody coordinates with cone friction: maximal coordinates are faster, but hold the friction
-  of a sticking contact to one direction.
+  have their own.
+- Multibody coordinates with cone friction: maximal coordinates are faster, but they restrict the
+  friction of a sticking contact to one direction.
 """
 
 from collections.abc import Sequence
@@ -27,7 +28,7 @@ _TIP_MASS = 1e6
 
 
 def make_object(client: int, slider: Slider, feet: Sequence[Pair]) -> int:
-    """The slider, on feet at the given places."""
+    """The slider, with feet at the given positions [m]."""
     shape = _object_shape(client, slider.side, feet)
     body = make_body(client, slider.mass, shape, 1.0)
     yaw_inertia = slider.mass * slider.side**2 / 6.0
@@ -49,12 +50,12 @@ def make_tip(client: int, settings: WorldSettings, slider: Slider) -> int:
 
 
 def resting_height(settings: WorldSettings, slider: Slider) -> float:
-    """Height [m] at which the springs of the feet carry the slider."""
+    """Height [m] of the slider when the springs carry its weight."""
     return HALF_HEIGHT - slider.mass * GRAVITY / (_FEET * settings.stiffness)
 
 
 def _object_shape(client: int, side: float, feet: Sequence[Pair]) -> int:
-    """A box, clear of the table, with spheres as feet."""
+    """A box above the table, with spheres as feet."""
     centres = [(x, y, _FOOT_RADIUS - HALF_HEIGHT) for x, y in feet]
     half_box = (side / 2.0, side / 2.0, HALF_HEIGHT - _FOOT_RADIUS)
     return int(
@@ -69,7 +70,7 @@ def _object_shape(client: int, side: float, feet: Sequence[Pair]) -> int:
 
 
 def make_body(client: int, mass: float, shape: int, friction: float) -> int:
-    """A body that nothing slows but friction, and that never sleeps."""
+    """A body without damping and rolling friction that is never deactivated."""
     body = int(pybullet.createMultiBody(mass, shape, physicsClientId=client))
     pybullet.changeDynamics(
         body,

@@ -1,4 +1,4 @@
-"""Slider, tip and table in a physics server, seen in the axes of the physics."""
+"""Slider, tip and table in a physics server, in the physics axes."""
 
 from push_core.geometry import quaternion_to_yaw, yaw_to_quaternion
 from push_core.physics import GRAVITY, Pair, Slider
@@ -7,19 +7,19 @@ from push_sim.settings import WorldSettings
 from push_sim.worlds.bullet.bodies import HALF_HEIGHT, make_object, make_tip, resting_height
 from push_sim.worlds.bullet.impact import fraction_until_contact
 from push_sim.worlds.bullet.silent_pybullet import pybullet
-from push_sim.worlds.bullet.snapshot import put_server_state, server_state
+from push_sim.worlds.bullet.snapshot import restore_server_state, server_state
 from push_sim.worlds.bullet.table import UnevenTable, make_table
 from push_sim.worlds.common import Axes, Outline, TableFriction, feet
 
 _CONTACT_RANGE = 1e-3
 _USUAL_STEP = 1e-3
-_ASIDE = (0.0, 0.0, 10.0)
+_FAR_AWAY = (0.0, 0.0, 10.0)
 _REST = (0.0, 0.0, 0.0)
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
 class BulletScene:
-    """The bodies and the solver; vectors and places are in the axes of the physics."""
+    """The bodies and the solver; all vectors and positions are in the physics axes."""
 
     def __init__(self, settings: WorldSettings, slider: Slider, outline: Outline) -> None:
         self._settings, self._slider, self._outline = settings, slider, outline
@@ -33,8 +33,8 @@ class BulletScene:
         """Ends the physics server."""
         pybullet.disconnect(self._client)
 
-    def draw(self, seed: int) -> None:
-        """Makes what depends on the seed anew, if it is another one than before."""
+    def set_seed(self, seed: int) -> None:
+        """Rebuilds everything that depends on the seed, if the seed has changed."""
         if seed == self.seed:
             return
         self.seed = seed
@@ -48,25 +48,25 @@ class BulletScene:
         """The state of the physics server."""
         return server_state(self._client)
 
-    def put_state(self, state: bytes) -> None:
-        """Goes back to a state of a scene of the same settings and seed."""
-        put_server_state(self._client, state)
+    def restore_state(self, state: bytes) -> None:
+        """Restores a state of a scene with the same settings and seed."""
+        restore_server_state(self._client, state)
 
     @property
     def slider(self) -> Axes:
-        """Where the slider is."""
-        (x, y, _), (_, _, q_z, q_w) = self._where(self._object)
+        """Pose of the slider."""
+        (x, y, _), (_, _, q_z, q_w) = self._body_pose(self._object)
         return Axes(x, y, quaternion_to_yaw(q_z, q_w))
 
     @property
     def tip(self) -> Pair:
-        """Where the tip is."""
-        (x, y, _), _ = self._where(self._tip)
+        """Centre of the tip [m]."""
+        (x, y, _), _ = self._body_pose(self._tip)
         return x, y
 
     @property
     def contact(self) -> bool:
-        """Whether the tip pressed on the slider in the last time step."""
+        """Whether a normal force acted between tip and slider in the last time step."""
         points = pybullet.getContactPoints(self._tip, self._object, physicsClientId=self._client)
         normal_force = 9
         return any(point[normal_force] > 0.0 for point in points)
@@ -78,55 +78,55 @@ class BulletScene:
         points = pybullet.getContactPoints(physicsClientId=self._client)
         return max((-float(point[distance]) for point in points), default=0.0)
 
-    def put_slider(self, place: Pair, theta: float) -> None:
-        """Puts the slider down at rest."""
-        self._place(self._object, (*place, self._resting_height), theta)
+    def place_slider(self, position: Pair, theta: float) -> None:
+        """Places the slider at rest."""
+        self._place(self._object, (*position, self._resting_height), theta)
 
-    def put_tip(self, place: Pair) -> None:
-        """Puts the tip down at rest."""
-        self._place(self._tip, (*place, HALF_HEIGHT), 0.0)
+    def place_tip(self, position: Pair) -> None:
+        """Places the tip at rest."""
+        self._place(self._tip, (*position, HALF_HEIGHT), 0.0)
 
-    def forget_contacts(self) -> None:
-        """Lifts the slider off everything for a step, so that no cached contact is left."""
-        self._place(self._object, _ASIDE, 0.0)
+    def clear_contacts(self) -> None:
+        """Steps once with the slider far away, so that no cached contact is left."""
+        self._place(self._object, _FAR_AWAY, 0.0)
         pybullet.stepSimulation(self._client)
 
-    def knock(self, impulse: Pair) -> None:
-        """Gives the slider's centre an impulse [N s] in the next time step."""
+    def apply_impulse(self, impulse: Pair) -> None:
+        """Applies an impulse [N s] to the slider's centre in the next time step."""
         x, y = (part / self._settings.substep for part in impulse)
-        centre, _ = self._where(self._object)
+        centre, _ = self._body_pose(self._object)
         pybullet.applyExternalForce(
             self._object, -1, (x, y, 0.0), centre, pybullet.WORLD_FRAME, self._client
         )
 
-    def rub(self, axes: Axes) -> None:
-        """Sets the friction of an uneven table for the next step, with the axes in the world."""
+    def update_friction(self, axes: Axes) -> None:
+        """Sets the friction of an uneven table for the next step; `axes` are the physics axes."""
         if self._uneven is not None:
             linear, angular = pybullet.getBaseVelocity(self._object, self._client)
             self._uneven.update(axes, self.slider, linear[:2], angular[2])
 
     def step(self, velocity: Pair) -> None:
-        """One time step with the tip at a velocity."""
+        """One time step with a velocity [m/s] of the tip."""
         linear = (velocity[0], velocity[1], self._lift)
         pybullet.resetBaseVelocity(self._tip, linear, _REST, self._client)
         pybullet.stepSimulation(self._client)
 
     def step_cut_at_contact(self, velocity: Pair) -> None:
-        """A time step, cut in two where the tip meets the slider in it."""
+        """One time step, cut in two if the tip meets the slider within it."""
         substep = self._settings.substep
-        part = self._fraction_until_contact(velocity, substep)
-        if part == 1.0:
+        fraction = self._fraction_until_contact(velocity, substep)
+        if fraction == 1.0:
             self.step(velocity)
             return
-        for cut in (part * substep, (1.0 - part) * substep):
+        for cut in (fraction * substep, (1.0 - fraction) * substep):
             self._set_substep(cut)
             self.step(velocity)
         self._set_substep(substep)
 
     def move_axes_under_slider(self) -> Axes:
-        """Moves the axes to the slider and along its heading; returns where it was before."""
+        """Moves the axes to the pose of the slider; returns this pose in the old axes."""
         client, slider = self._client, self.slider
-        (_, _, height), (q_x, q_y, q_z, q_w) = self._where(self._object)
+        (_, _, height), (q_x, q_y, q_z, q_w) = self._body_pose(self._object)
         linear, angular = pybullet.getBaseVelocity(self._object, client)
         tip = slider.point_from_world(self.tip)
         _, _, z, w = yaw_to_quaternion(-slider.theta)
@@ -160,7 +160,7 @@ class BulletScene:
 
     def _set_up_solver(self) -> None:
         settings, client = self._settings, self._client
-        # impulses grow with the step: the same error of the forces in any step
+        # impulses are proportional to the step: this keeps the error of the forces
         residual = settings.solver_residual * (settings.substep / _USUAL_STEP) ** 2
         pybullet.setGravity(0.0, 0.0, -GRAVITY, physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
@@ -175,21 +175,21 @@ class BulletScene:
 
     def _set_substep(self, substep: float) -> None:
         pybullet.setPhysicsEngineParameter(fixedTimeStep=substep, physicsClientId=self._client)
-        # gravity takes this vertical speed from the tip in each step, so that it stays level
+        # cancels the vertical speed that gravity adds in a step, so that the tip keeps its height
         self._lift = GRAVITY * substep
 
     def _fraction_until_contact(self, velocity: Pair, substep: float) -> float:
         slider, (x, y) = self.slider, self.tip
-        (u, v, _), (_, _, turning) = pybullet.getBaseVelocity(self._object, self._client)
+        (u, v, _), (_, _, turn_rate) = pybullet.getBaseVelocity(self._object, self._client)
         later = Axes(
-            slider.x + u * substep, slider.y + v * substep, slider.theta + turning * substep
+            slider.x + u * substep, slider.y + v * substep, slider.theta + turn_rate * substep
         )
         end = (x + velocity[0] * substep, y + velocity[1] * substep)
         return fraction_until_contact(
             self._outline, slider.point_from_world((x, y)), later.point_from_world(end)
         )
 
-    def _where(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    def _body_pose(self, body: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
         position, orientation = pybullet.getBasePositionAndOrientation(body, self._client)
         return position, orientation
 

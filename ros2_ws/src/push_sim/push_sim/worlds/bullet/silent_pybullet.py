@@ -1,17 +1,17 @@
-"""PyBullet without the greeting that it prints on standard error when it is imported."""
+"""Imports PyBullet without the message that it prints on standard error."""
 
 import os
 import sys
 
 sys.stderr.flush()
 _standard_error = os.dup(2)
-_nowhere = os.open(os.devnull, os.O_WRONLY)
-os.dup2(_nowhere, 2)
+_devnull = os.open(os.devnull, os.O_WRONLY)
+os.dup2(_devnull, 2)
 try:
     import pybullet
 finally:
     os.dup2(_standard_error, 2)
     os.close(_standard_error)
-    os.close(_nowhere)
+    os.close(_devnull)
 
 __all__ = ['pybullet']

@@ -1,7 +1,7 @@
-"""The state of a physics server as bytes: bodies, velocities and the contacts' cached forces.
+"""The state of a physics server as bytes: poses, velocities and cached contact forces.
 
-PyBullet can only write it to a file and read it from one; a snapshot kept inside the server could
-not go to another one, and would hold its memory until it is told to forget it.
+PyBullet writes and reads it only as a file. Its snapshots in memory cannot be restored in another
+server, and each one stays allocated until it is removed.
 """
 
 import tempfile
@@ -16,17 +16,17 @@ from push_sim.worlds.bullet.symmetry import Symmetry
 
 @dataclass(frozen=True)
 class BulletSnapshot:
-    """The whole state of a `BulletWorld`.
+    """The complete state of a `BulletWorld`.
 
     Attributes:
-        server: that of the physics server.
-        seed: of what was drawn at the reset.
-        axes: pose and side of the axes of the physics.
-        symmetry: how the push is seen.
-        aligned: whether that has been settled.
-        steps_left: until the axes follow the slider again.
-        knocked_steps: for which a knock may last.
-        impulse: that the next time step gives, if any [N s].
+        server: state of the physics server.
+        seed: seed of the reset.
+        axes: pose and side of the physics axes.
+        symmetry: map of the push to the canonical face and half.
+        aligned: whether this map has been chosen since the reset.
+        steps_left: time steps until the axes follow the slider again.
+        sliding_steps: time steps for which the object may slide after an impulse.
+        impulse: impulse of the next time step [N s], or None.
     """
 
     server: bytes
@@ -35,7 +35,7 @@ class BulletSnapshot:
     symmetry: Symmetry
     aligned: bool
     steps_left: int
-    knocked_steps: int
+    sliding_steps: int
     impulse: Pair | None
 
 
@@ -47,8 +47,8 @@ def server_state(client: int) -> bytes:
         return path.read_bytes()
 
 
-def put_server_state(client: int, state: bytes) -> None:
-    """Puts a physics server of the same bodies into a state."""
+def restore_server_state(client: int, state: bytes) -> None:
+    """Restores a state in a physics server with the same bodies."""
     with tempfile.TemporaryDirectory(prefix='push_sim_') as folder:
         path = Path(folder) / 'state.bullet'
         path.write_bytes(state)

@@ -1,8 +1,8 @@
 """The table of the PyBullet world.
 
-An even table is one plane. Where friction varies it is four boxes: the axes of the physics lie
-under the slider, so that each foot has a box of its own, whose friction is set in each time step
-to that at the foot's place in the direction of its slip.
+A table with constant friction is one plane. A table with varying friction is four boxes, one for
+each foot: the physics axes lie under the slider. In each time step the friction of a box is set
+to that at the position of its foot and in the direction of its slip.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ _HALF = 0.5
 
 
 def make_table(client: int, settings: WorldSettings) -> list[int]:
-    """The bodies of the table; they hold the springs of the feet that stand on it."""
+    """The bodies of the table; their contact stiffness makes the feet springs."""
     bodies = _boxes(client, settings) if settings.uneven else [_plane(client, settings)]
     for body in bodies:
         pybullet.changeDynamics(
@@ -50,29 +50,29 @@ def _boxes(client: int, settings: WorldSettings) -> list[int]:
 
 
 class UnevenTable:
-    """Keeps the friction of the four boxes up to date."""
+    """Updates the friction of the four boxes."""
 
     def __init__(
         self, client: int, boxes: Sequence[int], feet: Sequence[Pair], friction: TableFriction
     ) -> None:
         self._client = client
-        self._places = list(zip(boxes, feet, strict=True))
+        self._feet = list(zip(boxes, feet, strict=True))
         self._friction = friction
 
-    def update(self, axes: Axes, slider: Axes, velocity: Pair, turning: float) -> None:
+    def update(self, axes: Axes, slider: Axes, velocity: Pair, turn_rate: float) -> None:
         """Sets the friction for the next step.
 
         Args:
-            axes: of the physics, in the world.
-            slider: where it is in those axes.
-            velocity: of the slider in those axes [m/s].
-            turning: of the slider [rad/s].
+            axes: physics axes in the world.
+            slider: pose of the slider in the physics axes.
+            velocity: velocity of the slider in the physics axes [m/s].
+            turn_rate: angular velocity of the slider [rad/s].
         """
-        for box, foot in self._places:
+        for box, foot in self._feet:
             x, y = slider.vector_to_world(foot)
-            slip = (velocity[0] - turning * y, velocity[1] + turning * x)
-            place = axes.point_to_world((slider.x + x, slider.y + y))
-            coefficient = self._friction.coefficient(place, axes.vector_to_world(slip))
+            slip = (velocity[0] - turn_rate * y, velocity[1] + turn_rate * x)
+            position = axes.point_to_world((slider.x + x, slider.y + y))
+            coefficient = self._friction.coefficient(position, axes.vector_to_world(slip))
             pybullet.changeDynamics(
                 box, -1, lateralFriction=coefficient, physicsClientId=self._client
             )

@@ -1,9 +1,8 @@
-"""The quasi-static world: a square without inertia under an ellipsoidal limit surface.
+"""The quasi-static engine: a square with an ellipsoidal limit surface and without inertia.
 
-It moves only while the tip pushes it, by the motion cone, integrated along the way. After an
-impulse it slides straight on and comes to rest as Coulomb's friction says, unless it meets the tip
-first, which takes its speed. Nothing overlaps by more than a picometre; a square that is put down
-on the tip is moved aside.
+A pushed square moves by the integrated motion cone. After an impulse it slides in a straight line
+with the deceleration of Coulomb friction, and stops if it meets the tip. Bodies overlap by less
+than a picometre; a square that is placed on the tip is moved to contact.
 """
 
 import math
@@ -20,13 +19,13 @@ from push_sim.worlds.common import Axes, Outline, feet, friction_moment_radius
 from push_sim.worlds.quasi_static.rolling_contact import RollingContact, Touch
 
 _OVERLAP = 1e-12
-_TRAVEL = 0.25e-3
+_SMALLEST_TRAVEL = 0.25e-3
 _BISECTIONS = 40
 
 
 @dataclass(frozen=True)
 class QuasiStaticSnapshot:
-    """The whole state of a `QuasiStaticWorld`."""
+    """The complete state of a `QuasiStaticWorld`."""
 
     rolling: RollingContact
     pose: tuple[float, float, float]
@@ -37,7 +36,7 @@ class QuasiStaticSnapshot:
 
 
 class QuasiStaticWorld:
-    """A `World` of motion cones."""
+    """A `World` with quasi-static mechanics."""
 
     def __init__(self, settings: WorldSettings, slider: Slider) -> None:
         self._substep = settings.substep
@@ -50,7 +49,7 @@ class QuasiStaticWorld:
         self.reset(np.zeros(3), np.array([-2.0 * slider.side, 0.0]))
 
     def close(self) -> None:
-        """Nothing to free."""
+        """Does nothing: there are no resources."""
 
     def reset(self, object_pose: Array, tip_position: Array, seed: int = 0) -> None:
         """See `World.reset`."""
@@ -60,7 +59,7 @@ class QuasiStaticWorld:
         self.place_tip(tip_position)
         self.place_object(object_pose)
         if settings.size_error:
-            self._make_room()
+            self._remove_overlap()
 
     def place_object(self, object_pose: Array) -> None:
         """See `World.place_object`."""
@@ -87,7 +86,7 @@ class QuasiStaticWorld:
         velocity = (float(tip_velocity[0]), float(tip_velocity[1]))
         left = substeps * self._substep
         if self._touch is None:
-            self._make_room()
+            self._remove_overlap()
         while left > 0.0:
             left = self._push(velocity, left) if self._touch else self._approach(velocity, left)
         self._pressing = self._touch is not None
@@ -106,7 +105,7 @@ class QuasiStaticWorld:
     def restore(self, snapshot: object) -> None:
         """See `World.restore`."""
         if not isinstance(snapshot, QuasiStaticSnapshot):
-            raise InputError('this snapshot is of another engine, not of quasi_static')
+            raise InputError('the snapshot is of another engine, not of quasi_static')
         self._rolling = snapshot.rolling
         self._pose, self._tip = snapshot.pose, snapshot.tip
         self._sliding, self._touch = snapshot.sliding, snapshot.touch
@@ -130,11 +129,11 @@ class QuasiStaticWorld:
 
     @property
     def penetration(self) -> float:
-        """Overlap [m] of square and tip."""
+        """See `World.penetration`."""
         return max(0.0, -self._gap())
 
     def _push(self, velocity: Pair, duration: float) -> float:
-        """Pushes until the tip leaves the square; returns the time [s] that is left."""
+        """Pushes for a duration [s] or until the tip leaves; returns the remaining time [s]."""
         assert self._touch is not None
         touch, left = self._rolling.advance(self._touch, velocity, duration)
         self._move_tip(velocity, duration - left)
@@ -143,7 +142,7 @@ class QuasiStaticWorld:
         return left
 
     def _approach(self, velocity: Pair, duration: float) -> float:
-        """Moves tip and square apart from each other until they touch; returns the time left."""
+        """Moves both without contact until they touch; returns the remaining time [s]."""
         step = self._free_step(velocity, duration)
         before = self._tip, self._pose, self._sliding
         self._drift(velocity, step)
@@ -156,17 +155,17 @@ class QuasiStaticWorld:
             self._drift(velocity, middle)
             low, high = (middle, high) if self._gap() >= 0.0 else (low, middle)
         self._sliding = (0.0, 0.0)
-        self._take_touch()
+        self._begin_contact()
         return duration - high
 
     def _free_step(self, velocity: Pair, duration: float) -> float:
-        """A time [s] in which the two move little, or not as far as they are apart."""
+        """Duration [s] in which both approach by their gap at most, or by a short travel."""
         speed = math.hypot(*velocity) + math.hypot(*self._sliding)
-        clear = max(self._gap(), _TRAVEL)
+        clear = max(self._gap(), _SMALLEST_TRAVEL)
         return min(duration, clear / speed) if speed > 0.0 else duration
 
     def _drift(self, velocity: Pair, duration: float) -> None:
-        """Moves the tip, and the square as far as it slides."""
+        """Moves the tip, and the square if it slides."""
         self._move_tip(velocity, duration)
         speed = math.hypot(*self._sliding)
         if speed == 0.0:
@@ -174,8 +173,8 @@ class QuasiStaticWorld:
         slid = min(duration, speed / self._deceleration)
         lost = self._deceleration * slid / speed
         (x, y, theta), (u, v) = self._pose, self._sliding
-        part = slid * (1.0 - 0.5 * lost)
-        self._pose = (x + part * u, y + part * v, theta)
+        mean = slid * (1.0 - 0.5 * lost)
+        self._pose = (x + mean * u, y + mean * v, theta)
         kept = 0.0 if slid < duration else 1.0 - lost
         self._sliding = (kept * u, kept * v)
 
@@ -183,13 +182,13 @@ class QuasiStaticWorld:
         x, y = self._tip
         self._tip = (x + velocity[0] * duration, y + velocity[1] * duration)
 
-    def _take_touch(self) -> None:
-        """Both touch: at the place of the outline that is nearest to the tip."""
+    def _begin_contact(self) -> None:
+        """Begins a contact at the point of the outline nearest to the tip."""
         touch = Touch(self._outline.nearest(*self._tip_in_body()), self._pose[2])
         self._touch, self._pose = touch, self._outline.pose_in_contact(*touch, self._tip)
 
-    def _make_room(self) -> None:
-        """Moves the square aside where it was put down on the tip."""
+    def _remove_overlap(self) -> None:
+        """Moves the square to contact if it was placed on the tip."""
         self._pose = self._outline.without_overlap(self._pose, self._tip)
 
     def _gap(self) -> float:

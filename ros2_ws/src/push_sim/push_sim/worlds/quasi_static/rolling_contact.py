@@ -1,9 +1,9 @@
-"""A round tip in contact with the square: how place of contact and heading change as it moves.
+"""Rolling contact of round tip and square: integrates contact point and heading.
 
-The tip does not turn, so where it sticks it rolls along the square; at a corner it rolls round.
-Within one phase, one piece of the outline and one way to slip, the motion is smooth and a
-fourth-order Runge-Kutta step takes it; where a phase ends is found to 1e-5 of a step. A
-push of 50 mm comes out to 1e-9 m and rad.
+The tip does not rotate, so a sticking tip rolls along the square, also around corners. Within a
+phase, one piece of the outline and one sign of slip, the motion is smooth: it is integrated by
+fourth-order Runge-Kutta steps, and the end of a phase is located to 1e-5 of a step. The end of a
+50 mm push is accurate to 1e-9 m and rad.
 """
 
 import math
@@ -30,7 +30,7 @@ class Touch(NamedTuple):
     """A contact.
 
     Attributes:
-        along: place on the outline [m].
+        along: arc length of the contact on the outline [m].
         theta: heading of the square [rad].
     """
 
@@ -39,7 +39,7 @@ class Touch(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """What stays the same for a while: the piece of the outline and the sign of the slip."""
+    """Piece of the outline and sign of the slip."""
 
     piece: int
     slip: float
@@ -50,9 +50,9 @@ class RollingContact:
     """The quasi-static motion of a pushed square.
 
     Attributes:
-        outline: of the square, for the tip.
-        support_radius: friction moment over friction force of the square on the table [m].
-        friction: between square and tip.
+        outline: outline of the square for the tip.
+        support_radius: friction moment divided by friction force on the table [m].
+        friction: friction coefficient of square and tip.
     """
 
     outline: Outline
@@ -60,17 +60,17 @@ class RollingContact:
     friction: float
 
     def phase(self, touch: Touch, velocity: Pair) -> Phase | None:
-        """The phase of a contact with the tip at a world velocity; none if the tip leaves."""
+        """The phase of a contact with a world velocity of the tip; None if the tip leaves."""
         piece = self.outline.piece(touch.along)
         angle, normal, tangential = self.outline.frame(touch.along, piece)
-        v_n, v_t = _seen(velocity, touch.theta + angle)
+        v_n, v_t = _components(velocity, touch.theta + angle)
         if v_n <= 0.0:
             return None
         matrix = mobility(normal, tangential, self.support_radius**2)
         return Phase(piece, slip_sign(matrix, self.friction, v_n, v_t))
 
     def advance(self, touch: Touch, velocity: Pair, duration: float) -> tuple[Touch, float]:
-        """Moves on for a duration [s], or until the tip leaves; returns the time that is left."""
+        """Integrates a duration [s] or until the tip leaves; returns the remaining time [s]."""
         longest = self._longest_step(math.hypot(*velocity))
         while duration > 0.0:
             phase = self.phase(touch, velocity)
@@ -88,7 +88,7 @@ class RollingContact:
     def _within_phase(
         self, touch: Touch, velocity: Pair, phase: Phase, step: float
     ) -> tuple[Touch, float]:
-        """Takes a step that ends with the phase, if not before; returns the time it took."""
+        """A step that ends at the latest with the phase; returns its duration [s]."""
         reached = self._stepped(touch, velocity, phase, step)
         if self.phase(reached, velocity) == phase:
             return reached, step
@@ -103,7 +103,7 @@ class RollingContact:
         return reached, high
 
     def _stepped(self, touch: Touch, velocity: Pair, phase: Phase, step: float) -> Touch:
-        """One Runge-Kutta step of the classical kind."""
+        """One step of the classical Runge-Kutta method."""
         along, theta = touch
         a_1, w_1 = self._rates(touch, velocity, phase)
         half = 0.5 * step
@@ -116,20 +116,20 @@ class RollingContact:
         )
 
     def _rates(self, touch: Touch, velocity: Pair, phase: Phase) -> Pair:
-        """Speed of the contact along the outline [m/s] and of the square's turning [rad/s]."""
+        """Rates of arc length [m/s] and heading [rad/s]."""
         piece, slip = phase
         angle, normal, tangential = self.outline.frame(touch.along, piece)
-        v_n, v_t = _seen(velocity, touch.theta + angle)
+        v_n, v_t = _components(velocity, touch.theta + angle)
         c_squared = self.support_radius**2
         matrix = mobility(normal, tangential, c_squared)
         if slip == 0.0:
             f_n, f_t = sticking_force(matrix, v_n, v_t)
         else:
             f_n, f_t = sliding_force(matrix, slip * self.friction, v_n)
-        _, t_t, turning = twist_of_force(normal, tangential, c_squared, f_n, f_t)
-        return v_t - t_t - turning * (normal - self.outline.tip_radius), turning
+        _, t_t, turn_rate = twist_of_force(normal, tangential, c_squared, f_n, f_t)
+        return v_t - t_t - turn_rate * (normal - self.outline.tip_radius), turn_rate
 
 
-def _seen(velocity: Pair, angle: float) -> Pair:
-    """Normal and tangential part of a velocity, the normal at a world angle [rad]."""
+def _components(velocity: Pair, angle: float) -> Pair:
+    """Normal and tangential component of a velocity; the normal has a world angle [rad]."""
     return turned(velocity, math.cos(angle), math.sin(angle))
