@@ -11,7 +11,17 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_bag']),
         ('share/push_bag', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=[
+        'setuptools',
+        'foxglove-sdk',
+        'lz4',
+        'mcap',
+        'numpy',
+        'plotly',
+        'PyYAML',
+        'tqdm',
+        'zstandard',
+    ],
     extras_require={'test': ['pytest'], 'parquet': ['pyarrow==25.0.1']},
     zip_safe=False,
     entry_points={

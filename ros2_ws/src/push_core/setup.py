@@ -14,7 +14,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_core']),
         ('share/push_core', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'numpy'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
 )

@@ -11,7 +11,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_gp']),
         ('share/push_gp', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'numpy', 'plotly', 'scipy', 'threadpoolctl', 'tqdm'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
     entry_points={

@@ -14,7 +14,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_mpc']),
         ('share/push_mpc', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'casadi', 'numpy', 'osqp', 'scipy'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
     entry_points={

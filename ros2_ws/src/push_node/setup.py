@@ -14,7 +14,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_node']),
         ('share/push_node', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'PyYAML'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
 )

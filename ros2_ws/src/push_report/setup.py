@@ -11,7 +11,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_report']),
         ('share/push_report', ['package.xml']),
     ],
-    install_requires=['setuptools', 'plotly'],
+    install_requires=['setuptools', 'numpy', 'plotly'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
 )

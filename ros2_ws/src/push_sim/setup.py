@@ -11,7 +11,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_sim']),
         ('share/push_sim', ['package.xml']),
     ],
-    install_requires=['setuptools'],
+    install_requires=['setuptools', 'numpy', 'plotly', 'pybullet', 'scipy', 'tqdm'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
     entry_points={

@@ -1,4 +1,4 @@
-"""What the measured pushes must show; the figures are those of data/README.md and issue C."""
+"""Errors on the measured pushes; the bounds are the figures of the data set's README."""
 
 import os
 from pathlib import Path
