@@ -9,7 +9,7 @@ from push_bag.file.qos_text import qos_profile, qos_text
 from push_bag.file.reader import BagReader, Record
 from push_bag.file.topic_registry import Topic
 from push_bag.record.raw_subscription import RawSubscription
-from push_bag.replay.playback import Publishers, in_order, play, skipped_to
+from push_bag.replay.playback import Publishers, from_time, in_order, play
 from push_bag.replay.survey import survey
 from push_core.common.errors import InputError
 from push_node.interface import TOPICS
@@ -139,7 +139,7 @@ def test_the_start_counts_from_the_beginning_of_the_bag_whatever_the_topics(perf
 def test_what_is_latched_is_not_skipped_with_the_time_before_the_start(perfect):
     found = survey(perfect, None)
     begin = found.first_ns + 500_000_000
-    records = list(skipped_to(begin, in_order(BagReader(perfect).records())))
+    records = list(from_time(begin, in_order(BagReader(perfect).records())))
     assert min(each.log_ns for each in records) >= begin
     assert [each.topic.name for each in records[:2]] == ['/nominal_trajectory', '/model_info']
     assert records[2].log_ns < begin + 10_000_000

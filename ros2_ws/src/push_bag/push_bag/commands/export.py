@@ -1,4 +1,4 @@
-"""`push_bag export RUN --csv|--parquet -o FILE`: the run as one table for other programs."""
+"""`push_bag export RUN --csv|--parquet -o FILE`: writes a run as one table."""
 
 import argparse
 import csv
@@ -16,9 +16,9 @@ from push_bag.run import read_run
 from push_bag.score import TickTable, tick_table
 
 EPILOG = """
-One row for each tick of the controller, in SI units, which the names of the columns end with; v_n
-and v_t, the input and the nominal one, are in m/s. Empty (CSV) or null (Parquet) where a tick has
-no such figure. --parquet needs pyarrow: `make setup EXTRA=parquet`.
+One row per tick of the controller, in SI units; column names end with the unit, except v_n, v_t
+and their nominal values [m/s]. Cells without a value are empty (CSV) or null (Parquet).
+--parquet needs pyarrow: `make setup EXTRA=parquet`.
 Example: ros2 run push_bag export runs/RUN --csv -o run.csv
 """
 
@@ -29,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def csv_bytes(table: TickTable) -> bytes:
-    """The table as CSV; every number comes back as it was."""
+    """The table as CSV; numbers are written with all their digits."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator='\n')
     writer.writerow(table)
@@ -45,7 +45,7 @@ def parquet_bytes(table: TickTable) -> bytes:
         InputError: pyarrow is not installed.
     """
     try:
-        # large, and only this option needs it
+        # a large library that only this option needs
         import pyarrow  # noqa: PLC0415
         import pyarrow.parquet  # noqa: PLC0415
     except ImportError:
@@ -61,7 +61,7 @@ def _texts(column: NDArray[np.float64] | NDArray[np.int64]) -> list[str]:
 
 
 def _parser() -> Parser:
-    parser = Parser('Writes a run as one table, a row for each tick.', EPILOG)
+    parser = Parser('Writes a run as one table, one row per tick.', EPILOG)
     parser.add_argument('run', type=Path, help='run folder or MCAP file')
     kind = parser.add_mutually_exclusive_group(required=True)
     for name, write in (('csv', csv_bytes), ('parquet', parquet_bytes)):

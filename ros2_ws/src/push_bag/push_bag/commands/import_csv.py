@@ -1,9 +1,9 @@
-"""`push_bag import-csv ROBOT_RUN.csv -o RUN`: a run of the real cell as a bag like any other.
+"""`push_bag import-csv ROBOT_RUN.csv -o RUN`: converts a run of the real cell to a bag.
 
-The file has poses and positions at about 500 Hz and no reference. The line that was followed is
-the world's x axis. It is timed here by the object's own progress along it: where the reference
-ought to have been at each instant is not on record, so that only what is across the line and the
-heading can be scored, and the tracking error of the score is the lateral one.
+The file has poses and positions at about 500 Hz and no reference. The object followed the world's
+x axis; the timing of its reference was not recorded, so the reference is timed by the object's own
+progress. The score then holds lateral and heading errors only; its tracking error is the lateral
+one.
 """
 
 import argparse
@@ -19,8 +19,8 @@ from push_bag.robot_csv import messages, read_robot_run, topics
 
 EPILOG = """
 Columns: t_s, slider_x_m, slider_y_m, slider_theta_rad, pusher_cmd_x_m, pusher_cmd_y_m, pusher_x_m,
-pusher_y_m. The line that was followed is the x axis, timed by the object's own progress: the score
-tells what lies across it. Commanded velocities are the slopes of the commanded positions.
+pusher_y_m. The reference is the x axis, timed by the object's own progress, so the score holds the
+lateral error. Commanded velocities are the slopes of the commanded positions.
 """
 
 
@@ -30,12 +30,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def import_run(path: Path, folder: Path, slider: Slider) -> int:
-    """Writes a bag of a measured run.
+    """Converts a measured run to a bag.
 
     Args:
         path: of the CSV file.
         folder: of the new run; must not exist yet.
-        slider: what was pushed, and with what.
+        slider: the object and the tip.
 
     Returns:
         Number of messages written.
@@ -57,7 +57,7 @@ def import_run(path: Path, folder: Path, slider: Slider) -> int:
 
 
 def _parser() -> Parser:
-    parser = Parser('Makes a bag of a run of the real cell.', EPILOG)
+    parser = Parser('Converts a run of the real cell to a bag.', EPILOG)
     parser.add_argument('file', type=Path, metavar='ROBOT_RUN.csv')
     parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='RUN', help='new run folder'

@@ -1,4 +1,4 @@
-"""`push_bag info RUN`: what lies in a bag."""
+"""`push_bag info RUN`: prints the contents of a bag."""
 
 import argparse
 import shutil
@@ -12,12 +12,12 @@ from push_bag.file import BagReader, Traffic, lost_text
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Says what lies in a bag."""
+    """Prints the contents of a bag."""
     return run_command(_parser(), _work, argv)
 
 
 def bag_text(reader: BagReader) -> str:
-    """Topics, types, counts, rates, losses, duration and facts of a bag, as lines.
+    """Topics, types, counts, rates, losses, duration and facts of a bag.
 
     Raises:
         InputError: the bag is not readable.
@@ -34,7 +34,7 @@ def bag_text(reader: BagReader) -> str:
 
 
 def extract(reader: BagReader, folder: Path) -> None:
-    """Writes the attachments of a bag that was read into a new folder.
+    """Writes the attachments to a new folder; the bag must have been read.
 
     Raises:
         InputError: the folder exists, or cannot be written.
@@ -44,7 +44,7 @@ def extract(reader: BagReader, folder: Path) -> None:
     except FileExistsError:
         raise InputError(f'{folder} exists; name a new folder with --extract') from None
     except OSError as error:
-        raise InputError(f'cannot make {folder}: {error.strerror}') from error
+        raise InputError(f'cannot create {folder}: {error.strerror}') from error
     try:
         for name, data in reader.attachments.items():
             write_atomically(folder / Path(name).name, data)
@@ -81,13 +81,13 @@ def _ending(reader: BagReader) -> str:
 
 
 def _parser() -> Parser:
-    parser = Parser('Says what lies in a bag: topics, counts, rates, losses and facts.')
+    parser = Parser('Prints the topics, counts, rates, losses and facts of a bag.')
     parser.add_argument('run', type=Path, help='run folder or MCAP file')
     parser.add_argument(
         '--extract',
         type=Path,
         metavar='FOLDER',
-        help='write what is attached (parameters, model, track) into a new folder',
+        help='write the attachments (parameters, model, track) to a new folder',
     )
     return parser
 

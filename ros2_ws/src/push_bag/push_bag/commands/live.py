@@ -1,4 +1,4 @@
-"""The live view: every topic of a running or replayed cell, in the browser.
+"""The live view: shows every topic of a running or replayed cell in the browser.
 
 ros2 run push_bag live          then open https://app.foxglove.dev, "Open connection",
 ws://127.0.0.1:8765, and import the layout
@@ -29,10 +29,10 @@ DISCOVERY_PERIOD = 0.2  # [s]
 class LiveSettings:
     """Parameters of the live view."""
 
-    host: str = setting('127.0.0.1', 'address to listen at; 0.0.0.0 for every network')
-    port: int = setting(8765, 'TCP port; 0 takes any that is free', low=0, high=65535)
+    host: str = setting('127.0.0.1', 'address to listen on; 0.0.0.0 for every network')
+    port: int = setting(8765, 'TCP port; 0 for any free one', low=0, high=65535)
     topics: str = setting(
-        '', 'topics or patterns (/arm/*) to show beside those of the cell, separated by commas'
+        '', 'more topics to show: names or patterns (/arm/*), separated by commas'
     )
 
     def __post_init__(self) -> None:
@@ -48,9 +48,9 @@ class Live(Node):  # type: ignore[misc]
     Then open https://app.foxglove.dev, choose "Open connection" and ws://127.0.0.1:8765, and
     import the layout foxglove_layout.json of push_bringup's config folder.
 
-    host     address to listen at; 127.0.0.1, or 0.0.0.0 for every network
-    port     of TCP; 8765
-    topics   names or patterns to show beside those of the cell, separated by commas
+    host     address to listen on: 127.0.0.1 (default), or 0.0.0.0 for every network
+    port     TCP port; 8765
+    topics   more topics to show: names or patterns, separated by commas
     """
 
     def __init__(self) -> None:
@@ -62,7 +62,7 @@ class Live(Node):  # type: ignore[misc]
         known = [(name, topic.type_name, qos_text(topic.qos)) for name, topic in own.items()]
         server = LiveServer(settings.host, settings.port, known)
         self._recording = Recording(server, {*offers, *others}, offers)
-        # simulated time may stand still
+        # steady, because simulated time may stand still
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(DRAIN_PERIOD, self._recording.drain, clock=steady)
         self.create_timer(DISCOVERY_PERIOD, self._recording.discover, clock=steady)
@@ -70,7 +70,7 @@ class Live(Node):  # type: ignore[misc]
         self.get_logger().info(f'open {address} in Foxglove (https://app.foxglove.dev)')
 
     def destroy_node(self) -> None:
-        """Stops to listen as well."""
+        """Also stops the server."""
         self._recording.close()
         super().destroy_node()
 

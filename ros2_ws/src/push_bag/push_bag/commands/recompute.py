@@ -1,4 +1,4 @@
-"""`push_bag replay RUN --recompute`: its arguments, and what it says."""
+"""The options --recompute and --ask of `push_bag replay`."""
 
 import argparse
 import sys
@@ -11,40 +11,40 @@ from push_node.override_text import parsed_override
 from rclpy.signals import SignalHandlerOptions
 
 from push_bag.replay import Changes, Recomputed, recomputed
-from push_bag.replay.node_comparison import interviewed
+from push_bag.replay.node_comparison import compared_with_node
 
 
 def add_recompute_arguments(parser: Parser) -> None:
-    """Adds what `recompute` reads."""
+    """Adds the options of recomputing."""
     group = parser.add_argument_group('recomputing')
-    group.add_argument('--recompute', action='store_true', help='compute the commands again')
+    group.add_argument('--recompute', action='store_true', help='recompute the commands here')
     group.add_argument(
-        '--ask', action='store_true', help='have a running mpc_node compute them, in lockstep'
+        '--ask', action='store_true', help='recompute them with a running mpc_node, in lockstep'
     )
-    group.add_argument('--controller', metavar='NAME', default='', help='another controller')
-    group.add_argument('--model', type=Path, metavar='FILE', help='another model file')
+    group.add_argument('--controller', metavar='NAME', default='', help='use another controller')
+    group.add_argument('--model', type=Path, metavar='FILE', help='use another model file')
     group.add_argument(
         '-p',
         '--param',
         action='append',
         default=[],
         metavar='NAME:=VALUE',
-        help='another value of a parameter, as NAME or NODE.NAME; repeatable',
+        help='change a parameter, by NAME or NODE.NAME; repeatable',
     )
-    group.add_argument('--html', type=Path, metavar='FILE', help='draw both over time')
+    group.add_argument('--html', type=Path, metavar='FILE', help='write a figure of both')
 
 
 def check_recompute_arguments(
     arguments: argparse.Namespace, replaying: Mapping[str, object]
 ) -> None:
-    """Refuses what would have no effect.
+    """Refuses options that would have no effect.
 
     Args:
         arguments: of the command line.
-        replaying: those that only a replay heeds, with their defaults.
+        replaying: options of publishing, with their defaults.
 
     Raises:
-        InputError: names it.
+        InputError: an option has no effect.
     """
     if arguments.recompute and arguments.ask:
         raise InputError('--recompute and --ask: name one of them')
@@ -64,16 +64,16 @@ def recompute(arguments: argparse.Namespace) -> int:
     """Compares recorded with recomputed commands.
 
     Returns:
-        1 if nothing was changed and yet a command differs, else 0.
+        1 if nothing was changed and a command differs, else 0.
 
     Raises:
-        InputError: the bag lacks what the controller needs, or a change is not possible.
+        InputError: the bag lacks what the controller needs, or a change is invalid.
     """
     params = dict(parsed_override(text) for text in arguments.param)
     changes = Changes(arguments.controller, arguments.model, params)
-    found = recomputed(arguments.run, changes)
-    _tell(found, arguments.html)
-    return int(not changes.any and not found.same)
+    result = recomputed(arguments.run, changes)
+    _write(result, arguments.html)
+    return int(not changes.any and not result.same)
 
 
 def ask(arguments: argparse.Namespace) -> int:
@@ -86,20 +86,20 @@ def ask(arguments: argparse.Namespace) -> int:
         InputError: the bag lacks poses or ticks.
         RunError: no controller answers.
     """
-    # Ctrl-C stays Python's: it ends the wait for an answer
+    # Python keeps handling Ctrl-C, so that it ends the wait for a command
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     try:
-        found = interviewed(arguments.run, rclpy.create_node('replay'))
+        result = compared_with_node(arguments.run, rclpy.create_node('replay'))
     finally:
         rclpy.try_shutdown()
-    _tell(found, arguments.html)
-    return int(not found.same)
+    _write(result, arguments.html)
+    return int(not result.same)
 
 
-def _tell(found: Recomputed, page: Path | None) -> None:
+def _write(result: Recomputed, page: Path | None) -> None:
     if page is not None:
-        # plotly takes a second to import: only who asks for a figure waits for it
+        # plotly takes a second to import
         from push_bag.replay.command_figure import command_page  # noqa: PLC0415
 
-        write_atomically(page, command_page(found).encode())
-    sys.stdout.write(found.text())
+        write_atomically(page, command_page(result).encode())
+    sys.stdout.write(result.text())

@@ -1,4 +1,4 @@
-"""`push_bag replay RUN`: publishes a bag again, with its timing and QoS, or recomputes it."""
+"""`push_bag replay RUN`: publishes a bag with its timing and QoS, or recomputes its commands."""
 
 import argparse
 import itertools
@@ -20,9 +20,9 @@ from push_bag.commands.recompute import (
     recompute,
 )
 from push_bag.file import BagReader, Record
-from push_bag.replay import Publishers, Survey, in_order, play, skipped_to, survey
+from push_bag.replay import Publishers, Survey, from_time, in_order, play, survey
 
-DISCOVERY_TIME = 2.0  # [s] for who looks for publishers once a second, as the recorder does
+DISCOVERY_TIME = 2.0  # [s] enough for the recorder, which looks for publishers once a second
 REPLAYING = {
     'rate': 1.0,
     'topics': None,
@@ -31,8 +31,8 @@ REPLAYING = {
     'loop': False,
     'clock': False,
 }
-"""Options that only a replay heeds, and their defaults."""
-MATCHING_TIMEOUT = 5.0  # [s] for those that were seen to be connected
+"""Options of publishing, with their defaults."""
+MATCHING_TIMEOUT = 5.0  # [s] for discovered subscribers to be matched
 EPILOG = """
 examples:
   ros2 run push_bag replay runs/RUN --rate 2 --start 5
@@ -41,12 +41,12 @@ examples:
   ros2 run push_bag replay runs/RUN --ask
   ros2 run push_bag replay runs/RUN --recompute --param weights.contact:=100.0 --html overlay.html
 
---recompute publishes nothing: it gives the recorded poses to the controller and compares what it
-computes with the recorded commands. Nothing changed: status 0 if they are the same bit for bit, 1
-if not. With --controller, --model or --param it says how far the commands lie apart.
+--recompute publishes nothing: it gives the recorded poses to the controller and compares the
+computed commands with the recorded ones. Status 0 if they are equal bit for bit, 1 if not. With
+--controller, --model or --param it prints the differences, and the status is 0.
 
---ask does the same with a running mpc_node: it starts it where the recorded one was started, shows
-it each pair of poses with the time that was known then, and waits for its answer. For the nodes:
+--ask does the same with a running mpc_node: it starts the node where the recorded one was started,
+sends it each pair of poses with the recorded time, and waits for its command. To start the nodes:
   ros2 run push_bag info runs/RUN --extract parts
   ros2 run push_gp gp_server --ros-args --params-file parts/params.yaml -p model:=parts/MODEL.npz
   ros2 run push_mpc mpc_node --ros-args --params-file parts/params.yaml -p mode:=lockstep \\
@@ -60,21 +60,21 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> Parser:
-    parser = Parser('Publishes a bag again, with its recorded timing and QoS.', EPILOG)
+    parser = Parser('Publishes a bag with its recorded timing and QoS.', EPILOG)
     parser.add_argument('run', type=Path, help='run folder or MCAP file')
-    parser.add_argument('--rate', type=float, default=1.0, help='times as fast; default 1')
-    parser.add_argument('--topics', nargs='+', metavar='NAME', help='only these; default all')
-    parser.add_argument('--start', type=float, default=0.0, metavar='S', help='begin S seconds in')
+    parser.add_argument('--rate', type=float, default=1.0, help='playback speed; default 1')
+    parser.add_argument('--topics', nargs='+', metavar='NAME', help='publish only these')
+    parser.add_argument('--start', type=float, default=0.0, metavar='S', help='skip S seconds')
     parser.add_argument(
         '--delay',
         type=float,
         default=DISCOVERY_TIME,
         metavar='S',
-        help='wait for listeners before the first message; default %(default)s',
+        help='time to wait for subscribers before the first message; default %(default)s',
     )
-    parser.add_argument('--loop', action='store_true', help='again and again, until Ctrl-C')
+    parser.add_argument('--loop', action='store_true', help='repeat until Ctrl-C')
     parser.add_argument(
-        '--clock', action='store_true', help='publish /clock too, for nodes with use_sim_time'
+        '--clock', action='store_true', help='also publish /clock, for nodes with use_sim_time'
     )
     add_recompute_arguments(parser)
     return parser
@@ -91,35 +91,35 @@ def _work(arguments: argparse.Namespace) -> int:
     for name in ('start', 'delay'):
         if not 0 <= getattr(arguments, name) < math.inf:
             raise InputError(f'--{name} must not be below 0, not {getattr(arguments, name):g}')
-    found = survey(arguments.run, arguments.topics)
-    if arguments.start > found.seconds:
-        raise InputError(f'--start {arguments.start:g} is after the end at {found.seconds:.2f} s')
-    # Ctrl-C stays Python's: it ends the wait for the next message
+    bag = survey(arguments.run, arguments.topics)
+    if arguments.start > bag.seconds:
+        raise InputError(f'--start {arguments.start:g} is after the end at {bag.seconds:.2f} s')
+    # Python keeps handling Ctrl-C, so that it ends the wait for the next message
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        _replay(rclpy.create_node('replay'), found, arguments)
+        _replay(rclpy.create_node('replay'), bag, arguments)
     finally:
         rclpy.try_shutdown()
     return 0
 
 
-def _replay(node: Node, found: Survey, arguments: argparse.Namespace) -> None:
-    publishers = Publishers(node, found.topics.values(), arguments.clock)
+def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
+    publishers = Publishers(node, bag.topics.values(), arguments.clock)
     time.sleep(arguments.delay)
     publishers.wait_until_matched(MATCHING_TIMEOUT)
-    if not publishers.are_heard:
-        sys.stderr.write('replay: nobody listens yet; --delay S gives listeners more time\n')
+    if not publishers.have_subscribers:
+        sys.stderr.write('replay: no topic has a subscriber; --delay S waits longer\n')
     for _ in itertools.count() if arguments.loop else range(1):
-        records = _records(arguments, found)
-        count = play(records, publishers.publish, arguments.rate, found.seconds - arguments.start)
-        sys.stdout.write(f'{count} messages on {len(found.topics)} topics replayed\n')
+        records = _records(arguments, bag)
+        count = play(records, publishers.publish, arguments.rate, bag.seconds - arguments.start)
+        sys.stdout.write(f'{count} messages on {len(bag.topics)} topics replayed\n')
         sys.stdout.flush()
 
 
-def _records(arguments: argparse.Namespace, found: Survey) -> Iterator[Record]:
+def _records(arguments: argparse.Namespace, bag: Survey) -> Iterator[Record]:
     reader = BagReader(arguments.run)
-    begin = found.first_ns + round(arguments.start * 1e9)
-    return skipped_to(begin, in_order(reader.records(found.topics)))
+    begin = bag.first_ns + round(arguments.start * 1e9)
+    return from_time(begin, in_order(reader.records(bag.topics)))
 
 
 if __name__ == '__main__':

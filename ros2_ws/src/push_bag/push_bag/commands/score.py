@@ -1,4 +1,4 @@
-"""`push_bag score RUN…`: the score of runs as a table, as JSON, as a report, held to bounds."""
+"""`push_bag score RUN…`: scores runs, as table, JSON or report, and checks bounds."""
 
 import argparse
 import sys
@@ -28,15 +28,15 @@ EPILOG = """
 examples:
   ros2 run push_bag score runs/RUN
   ros2 run push_bag score runs/A runs/B --html report.html
-  ros2 run push_bag score runs/*                      a line for each run, their mean and spread
-  ros2 run push_bag score runs/A runs/B --compare     figure by figure, with the difference
+  ros2 run push_bag score runs/*                      one line per run, mean and spread
+  ros2 run push_bag score runs/A runs/B --compare     one line per figure, with the difference
   ros2 run push_bag score runs/RUN --fail-above incomplete=0 --fail-above mean=3.0
   ros2 run push_bag score runs/RUN --fail-above solve_ms.p99=2 --fail-above lost=0
 
-A figure is named by its path in the JSON; mean, rms, p95 and max alone are those of the tracking
-error; `lost` is the number of lost messages, `incomplete` is 1 for a run that was not completed
-and 0 for one that was. What each means: docs/scoring.md.
-Exit status: 0 scored, 1 a figure is above its bound, 2 the command or a bag was wrong.
+A figure is named by its path in the JSON; mean, rms, p95 and max alone mean those of the tracking
+error. `lost` is the number of lost messages; `incomplete` is 1 for a run that was not completed,
+else 0. Definitions: docs/scoring.md.
+Exit status: 0 scored, 1 a figure exceeds its bound, 2 wrong command line or bag.
 """
 
 
@@ -50,20 +50,22 @@ def _parser() -> Parser:
     parser.add_argument(
         'runs', type=Path, nargs='+', metavar='RUN', help='run folder or MCAP file'
     )
-    parser.add_argument('--json', action='store_true', help='print one JSON object instead')
+    parser.add_argument('--json', action='store_true', help='print a JSON object')
     parser.add_argument(
         '--html',
         type=Path,
         metavar='FILE',
-        help='also write a report; several runs over each other',
+        help='also write an HTML report; several runs share each figure',
     )
-    parser.add_argument('--compare', action='store_true', help='two runs, figure by figure')
+    parser.add_argument(
+        '--compare', action='store_true', help='print two runs, one line per figure'
+    )
     parser.add_argument(
         '--fail-above',
         action='append',
         default=[],
         metavar='FIGURE=VALUE',
-        help='end with status 1 if a figure of a run is higher; repeatable',
+        help='end with status 1 if a figure of a run exceeds VALUE; repeatable',
     )
     return parser
 
@@ -71,18 +73,18 @@ def _parser() -> Parser:
 def _work(arguments: argparse.Namespace) -> None:
     bounds = [bound(text) for text in arguments.fail_above]
     if arguments.compare and (len(arguments.runs) != 2 or arguments.json):
-        raise InputError('--compare takes two runs and prints a table; --json has all figures')
+        raise InputError('--compare takes two runs and excludes --json')
     scores = list(zip(map(str, arguments.runs), _scored(arguments), strict=True))
     sys.stdout.write(_text(arguments, scores))
     check_bounds(scores, bounds)
 
 
 def _scored(arguments: argparse.Namespace) -> list[dict[str, Any]]:
-    """The score of each run; their report is written where one was asked for."""
+    """Scores each run; writes the report if requested."""
     paths = tqdm(arguments.runs, unit='run', desc='scoring', disable=None, leave=False)
     if arguments.html is None:
         return [_of(path, score_run) for path in paths]
-    # plotly takes a second to import: only who asks for a report waits for it
+    # plotly takes a second to import
     from push_bag.report.report import report_html  # noqa: PLC0415
 
     scored = [_of(path, _run_and_score) for path in paths]
@@ -96,7 +98,7 @@ def _run_and_score(path: Path) -> tuple[RunSeries, dict[str, Any]]:
 
 
 def _of(path: Path, work: Callable[[Path], T]) -> T:
-    """What some work makes of a bag; its error names the bag."""
+    """The result of `work` for a bag; adds the path of the bag to its errors."""
     try:
         return work(path)
     except InputError as error:

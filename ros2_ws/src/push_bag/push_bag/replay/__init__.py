@@ -1,6 +1,6 @@
-"""Publishing a bag again, and computing its commands again."""
+"""Replay of a bag: publishing its messages, or recomputing its commands."""
 
-from push_bag.replay.playback import Publishers, in_order, play, skipped_to
+from push_bag.replay.playback import Publishers, from_time, in_order, play
 from push_bag.replay.recompute import Changes, Recomputed, recomputed
 from push_bag.replay.survey import Survey, survey
 
@@ -9,9 +9,9 @@ __all__ = [
     'Publishers',
     'Recomputed',
     'Survey',
+    'from_time',
     'in_order',
     'play',
     'recomputed',
-    'skipped_to',
     'survey',
 ]

@@ -1,4 +1,4 @@
-"""Recorded and recomputed commands over each other: a page that needs nothing else."""
+"""An HTML page of recorded and recomputed commands; works offline."""
 
 import numpy as np
 import plotly.graph_objects as go
@@ -10,12 +10,12 @@ TITLES = ('v_x [mm/s]', 'v_y [mm/s]', 'difference [mm/s]')
 
 
 def command_page(run: Recomputed) -> str:
-    """The page as HTML."""
+    """The figure as an HTML page."""
     return str(command_figure(run).to_html(include_plotlyjs=True, full_html=True))
 
 
 def command_figure(run: Recomputed) -> go.Figure:
-    """Both components of the tip's velocity over time, and how far the two runs lie apart."""
+    """Both components of the commanded velocity over time, and the size of the difference."""
     figure = make_subplots(rows=3, cols=1, shared_xaxes=True, subplot_titles=TITLES)
     time = (run.stamp - run.stamp[:1].sum()) * 1e-9
     for axis in range(2):
@@ -32,8 +32,8 @@ def command_figure(run: Recomputed) -> go.Figure:
                 showlegend=axis == 0,
             )
             figure.add_trace(line, row=axis + 1, col=1)
-    away = 1e3 * np.hypot(*(run.computed - run.recorded).T)
-    figure.add_trace(go.Scatter(x=time, y=away, name='difference'), row=3, col=1)
+    difference = 1e3 * np.hypot(*(run.computed - run.recorded).T)
+    figure.add_trace(go.Scatter(x=time, y=difference, name='difference'), row=3, col=1)
     figure.update_xaxes(title_text='time since the first command [s]', row=3, col=1)
     figure.update_layout(height=800, title='Recorded and recomputed commands')
     return figure

@@ -1,7 +1,6 @@
-"""Shows recorded poses to a running controller and waits for its answers, as a simulator does.
+"""Drives a running mpc_node in lockstep: publishes clock and poses, waits for the command.
 
-The controller runs in lockstep: its clock is what this tells it, so that its answers do not depend
-on how busy the machine is.
+The node's time is the published clock, so its commands do not depend on the load of the machine.
 """
 
 import time
@@ -23,17 +22,17 @@ from std_srvs.srv import Trigger
 
 from push_bag.run import Floats
 
-PATIENCE = 0.2  # [s] for an answer, before the question is put again
+PATIENCE = 0.2  # [s] to wait for a command before the poses are sent again
 ATTEMPTS = 50
 
 
 @dataclass(frozen=True)
 class TickInput:
-    """What the controller knew at one tick.
+    """Inputs of one tick.
 
     Attributes:
         stamp: of the poses [ns].
-        now: when it was asked [ns].
+        now: time of the tick [ns].
         object_pose: as recorded.
         tip: as recorded.
     """
@@ -45,14 +44,14 @@ class TickInput:
 
 
 class NodeClient:
-    """Stands in for the simulator of a controller."""
+    """Takes the place of the simulator."""
 
     def __init__(self, node: Node, prefix: str) -> None:
-        """Looks for the controller.
+        """Creates publishers and clients.
 
         Args:
-            node: that asks.
-            prefix: of the names of the controller's topics and services.
+            node: to create them on.
+            prefix: namespace of the controller's topics and services, ending in a slash.
         """
         self._object = interface.OBJECT_POSE.publisher(node, prefix)
         self._tip = interface.PUSHER_POSE.publisher(node, prefix)
@@ -63,65 +62,65 @@ class NodeClient:
             for service in (interface.STOP, interface.RESUME, interface.START)
         }
         self._spinner = Spinner(node)
-        self._answers: dict[int, Floats] = {}
+        self._commands: dict[int, Floats] = {}
 
-    def begin(self, first: TickInput) -> None:
-        """Starts the controller anew, whatever it was doing.
+    def start(self, first: TickInput) -> None:
+        """Stops the controller, then starts it from its first tick.
 
         Raises:
-            RunError: there is none, or it refuses.
+            RunError: no controller answers, or it refuses to start.
         """
         self.stop()
         self._call(interface.RESUME)
         deadline = time.monotonic() + READY_TIMEOUT
-        while not (answer := self._start(first)).success:
+        while not (answer := self._try_to_start(first)).success:
             if time.monotonic() > deadline:
                 raise RunError(f'mpc_node does not start: {answer.message}')
-        self._answers.clear()
+        self._commands.clear()
 
     def stop(self) -> None:
         """Stops the controller.
 
         Raises:
-            RunError: there is none.
+            RunError: no controller answers.
         """
         self._call(interface.STOP)
 
-    def answer(self, question: TickInput) -> Floats:
-        """What the controller sends (2,) [m/s].
+    def command(self, inputs: TickInput) -> Floats:
+        """The controller's command (2,) for these inputs [m/s].
 
         Raises:
             RunError: it does not answer.
         """
-        self._answers.clear()
+        self._commands.clear()
         for _ in range(ATTEMPTS):
-            self._show(question)
-            if self._happens(lambda: question.stamp in self._answers, PATIENCE):
-                return self._answers[question.stamp]
+            self._publish(inputs)
+            if self._wait_until(lambda: inputs.stamp in self._commands, PATIENCE):
+                return self._commands[inputs.stamp]
         raise RunError('mpc_node does not answer; run it with mode:=lockstep')
 
-    def _start(self, first: TickInput) -> Any:
-        """An attempt to start; the controller wants to have seen poses before."""
-        self._show(first)
-        self._happens(lambda: False, PATIENCE)
+    def _try_to_start(self, first: TickInput) -> Any:
+        """Calls the start service; the controller starts only after it received poses."""
+        self._publish(first)
+        self._wait_until(lambda: False, PATIENCE)
         return self._call(interface.START)
 
-    def _show(self, question: TickInput) -> None:
-        self._clock.publish(Clock(clock=to_stamp(question.now)))
-        self._tip.publish(question.tip)
-        self._object.publish(question.object_pose)
+    def _publish(self, inputs: TickInput) -> None:
+        self._clock.publish(Clock(clock=to_stamp(inputs.now)))
+        self._tip.publish(inputs.tip)
+        self._object.publish(inputs.object_pose)
 
     def _on_command(self, message: TwistStamped) -> None:
         velocity = message.twist.linear
-        self._answers[to_nanoseconds(message.header.stamp)] = np.array([velocity.x, velocity.y])
+        self._commands[to_nanoseconds(message.header.stamp)] = np.array([velocity.x, velocity.y])
 
     def _call(self, service: GraphService) -> Any:
-        answer = ask(self._clients[service], Trigger.Request(), self._happens)
+        answer = ask(self._clients[service], Trigger.Request(), self._wait_until)
         if answer is None:
             raise RunError(f'no mpc_node answers {service.name}; see replay --help')
         return answer
 
-    def _happens(self, finished: Callable[[], bool], timeout: float) -> bool:
+    def _wait_until(self, finished: Callable[[], bool], timeout: float) -> bool:
         end = time.monotonic() + timeout
         while not finished() and time.monotonic() < end:
             self._spinner.once()

@@ -1,4 +1,8 @@
-"""A recorded run put to a running controller, tick by tick: does it send the same commands?"""
+"""Compares the recorded commands of a run with those of a running mpc_node.
+
+`--recompute` calls the controller in process. This one also checks the node: its topics, services,
+QoS and lockstep clock.
+"""
 
 import math
 from pathlib import Path
@@ -19,23 +23,22 @@ from push_bag.run import ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
 POSES = (OBJECT_POSE.short_name, PUSHER_POSE.short_name)
 
 
-def interviewed(path: Path, node: Node) -> Recomputed:
-    """The commands of a run beside those of a controller that is asked over DDS.
+def compared_with_node(path: Path, node: Node) -> Recomputed:
+    """Sends the recorded poses of a run to a running mpc_node and collects its commands.
 
     Args:
         path: run folder or MCAP file.
-        node: that asks.
+        node: publishes the poses.
 
     Raises:
         InputError: there is no readable bag, or no tick or no pose in it.
         RunError: no controller answers.
     """
-    run = RecordedRun(path)
-    return NodeComparison(run, node).result()
+    return NodeComparison(RecordedRun(path), node).result()
 
 
 class NodeComparison:
-    """Asks for each tick of a run."""
+    """Gives a controller node the inputs of each tick of a run."""
 
     def __init__(self, run: RecordedRun, node: Node) -> None:
         """Reads the poses.
@@ -55,7 +58,7 @@ class NodeComparison:
                 published[name].append(record.publish_ns)
         if not topic:
             raise InputError(f'{run.reader.path} holds no poses')
-        self._places = {
+        self._by_stamp = {
             name: ByStamp([nanoseconds(message) for message in messages], published[name])
             for name, messages in self._messages.items()
         }
@@ -63,40 +66,40 @@ class NodeComparison:
         self._mode = ControllerState.IDLE
 
     def result(self) -> Recomputed:
-        """Asks from the first tick to the last."""
-        found: list[tuple[int, Floats, Floats]] = []
+        """Runs all ticks."""
+        rows: list[tuple[int, Floats, Floats]] = []
         skipped = 0
         ticks = tqdm(self._run.ticks(), total=len(self._run), unit='tick', disable=None)
         for tick in ticks:
-            answer = self._answer(tick)
+            command = self._command(tick)
             if tick.velocity is None or tick.mode == ControllerState.IDLE:
                 continue
-            if answer is None:
+            if command is None:
                 skipped += 1
             else:
-                found.append((tick.stamp, tick.velocity, answer))
+                rows.append((tick.stamp, tick.velocity, command))
         return Recomputed(
-            np.array([stamp for stamp, _, _ in found], np.int64),
-            np.array([recorded for _, recorded, _ in found], np.float64).reshape(-1, 2),
-            np.array([answer for _, _, answer in found], np.float64).reshape(-1, 2),
+            np.array([stamp for stamp, _, _ in rows], np.int64),
+            np.array([recorded for _, recorded, _ in rows], np.float64).reshape(-1, 2),
+            np.array([command for _, _, command in rows], np.float64).reshape(-1, 2),
             skipped,
         )
 
-    def _answer(self, tick: RecordedTick) -> Floats | None:
-        """What the controller sends at a tick; None where it cannot be asked."""
-        question = self._question(tick)
+    def _command(self, tick: RecordedTick) -> Floats | None:
+        """The node's command at a tick; None if the bag lacks its poses."""
+        inputs = self._inputs(tick)
         before, self._mode = self._mode, tick.mode
-        if tick.mode == ControllerState.STOPPED and question is None:
+        if tick.mode == ControllerState.STOPPED and inputs is None:
             self._client.stop()
             return np.zeros(2)
-        if tick.mode == ControllerState.IDLE or question is None:
+        if tick.mode == ControllerState.IDLE or inputs is None:
             return None
         if tick.mode == ControllerState.ARMED and before != ControllerState.ARMED:
-            self._client.begin(question)
-        return self._client.answer(question)
+            self._client.start(inputs)
+        return self._client.command(inputs)
 
-    def _question(self, tick: RecordedTick) -> TickInput | None:
-        """What the controller knew; None where it answered no pose, or one that is lost."""
+    def _inputs(self, tick: RecordedTick) -> TickInput | None:
+        """Inputs of a tick; None for a tick without poses, or if the bag lacks them."""
         object_pose, tip = (self._message(name, tick) for name in POSES)
         if math.isnan(tick.exposure) or object_pose is None or tip is None:
             return None
@@ -104,5 +107,5 @@ class NodeComparison:
         return TickInput(tick.stamp, now, object_pose, tip)
 
     def _message(self, name: str, tick: RecordedTick) -> Any:
-        row = self._places[name].row(tick.stamp, tick.published)
+        row = self._by_stamp[name].row(tick.stamp, tick.published)
         return None if row is None else self._messages[name][row]

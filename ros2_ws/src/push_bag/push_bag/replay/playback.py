@@ -1,4 +1,4 @@
-"""Records of a bag, published at their time."""
+"""Publishes the records of a bag at their recorded times."""
 
 import heapq
 import time
@@ -16,12 +16,12 @@ from tqdm import tqdm
 
 from push_bag.file import Record, Topic, message_class, qos_profile
 
-REORDER_NS = 1_000_000_000  # how far the recorder's polling can mix up the order in the file
+REORDER_NS = 1_000_000_000  # the recorder polls topic by topic, so log times are not sorted
 MATCHING_PERIOD = 0.02  # [s]
 
 
 def in_order(records: Iterable[Record]) -> Iterator[Record]:
-    """The records by log time, looking only REORDER_NS ahead."""
+    """The records sorted by log time; reads ahead by REORDER_NS."""
     waiting: list[tuple[int, int, Record]] = []
     for number, record in enumerate(records):
         heapq.heappush(waiting, (record.log_ns, number, record))
@@ -31,8 +31,8 @@ def in_order(records: Iterable[Record]) -> Iterator[Record]:
         yield heapq.heappop(waiting)[2]
 
 
-def skipped_to(begin_ns: int, records: Iterable[Record]) -> Iterator[Record]:
-    """The records from a log time [ns] on; before it only the last of each latched topic."""
+def from_time(begin_ns: int, records: Iterable[Record]) -> Iterator[Record]:
+    """The records from a log time [ns] on, after the last earlier one of each latched topic."""
     latched: dict[str, Record] = {}
     for record in records:
         if record.log_ns < begin_ns:
@@ -45,7 +45,7 @@ def skipped_to(begin_ns: int, records: Iterable[Record]) -> Iterator[Record]:
 
 
 def is_latched(topic: Topic) -> bool:
-    """Whether who comes late is sent the last message all the same."""
+    """Whether the topic is transient-local: late subscribers receive the last message."""
     return bool(qos_profile(topic.qos).durability == DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -57,15 +57,15 @@ def play(
     clock: Callable[[], float] = time.monotonic,
     sleep: Callable[[float], None] = time.sleep,
 ) -> int:
-    """Hands each record on at its time after the first one.
+    """Publishes each record at its recorded time after the first one.
 
     Args:
-        records: by log time.
-        publish: takes one record.
-        rate: how much faster than recorded.
-        seconds: of recorded time, for the progress bar.
-        clock: seconds of a steady clock.
-        sleep: waits some seconds.
+        records: sorted by log time.
+        publish: publishes one record.
+        rate: playback speed relative to recorded time.
+        seconds: recorded time to play, for the progress bar.
+        clock: returns the time of a steady clock [s].
+        sleep: waits for a time [s].
 
     Returns:
         Number of records published.
@@ -84,18 +84,18 @@ def play(
 
 
 class Publishers:
-    """Publishes raw records on a node, with the types and profiles that the bag states."""
+    """Publishes serialized records with the types and QoS profiles of the bag."""
 
     def __init__(self, node: Node, topics: Iterable[Topic], with_clock: bool = False) -> None:
         """Creates a publisher for each topic.
 
         Args:
-            node: that publishes.
+            node: to publish with.
             topics: of the bag.
-            with_clock: whether /clock tells each record's log time, where the bag has no clock.
+            with_clock: whether to publish each record's log time on /clock, unless the bag has it.
 
         Raises:
-            InputError: a type is not installed, or a name or a profile is not readable.
+            InputError: a type is not installed, or a name or a profile is not valid.
         """
         self._node = node
         self._publishers = {topic.name: _publisher(node, topic) for topic in topics}
@@ -103,7 +103,7 @@ class Publishers:
         self._clock = CLOCK.publisher(node) if needs_clock else None
 
     def wait_until_matched(self, timeout: float) -> None:
-        """Waits until every listener of whom the node knows is connected, at most a time [s]."""
+        """Waits until all discovered subscribers are matched, at most `timeout` [s]."""
         end = time.monotonic() + timeout
         while time.monotonic() < end and not all(
             publisher.get_subscription_count() >= self._node.count_subscribers(name)
@@ -112,12 +112,12 @@ class Publishers:
             time.sleep(MATCHING_PERIOD)
 
     @property
-    def are_heard(self) -> bool:
-        """Whether anybody listens to any of the topics."""
+    def have_subscribers(self) -> bool:
+        """Whether any of the topics has a subscriber."""
         return any(each.get_subscription_count() for each in self._publishers.values())
 
     def publish(self, record: Record) -> None:
-        """Publishes the bytes of one record, and before it what time it is."""
+        """Publishes one record, after its time on /clock."""
         if self._clock is not None:
             self._clock.publish(Clock(clock=to_stamp(record.log_ns)))
         self._publishers[record.topic.name].publish(record.data)
@@ -128,4 +128,4 @@ def _publisher(node: Node, topic: Topic) -> Any:
     try:
         return node.create_publisher(kind, topic.name, profile)
     except (InvalidTopicNameException, ValueError):
-        raise InputError(f'the bag has a topic of no valid name: {topic.name[:60]!r}') from None
+        raise InputError(f'the bag has a topic of invalid name: {topic.name[:60]!r}') from None

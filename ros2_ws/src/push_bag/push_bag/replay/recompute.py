@@ -1,7 +1,7 @@
-"""Recorded commands beside those that a controller computes from the recorded poses.
+"""Recorded commands compared with those that a controller computes from the recorded poses.
 
-This package knows messages, not controllers. Who knows one offers it as the entry point RECOMPUTE
-of its package: a function of a bag's path and the `Changes` that gives the `Recomputed` run.
+This package does not depend on controllers. The one that does offers the entry point RECOMPUTE: a
+function from the path of a bag and `Changes` to a `Recomputed` run.
 """
 
 from dataclasses import dataclass, field
@@ -20,12 +20,12 @@ RECOMPUTE = 'push_bag.recompute'
 
 @dataclass(frozen=True)
 class Changes:
-    """What shall differ from the recorded run.
+    """Changes to the recorded run.
 
     Attributes:
-        controller: gp or analytical; empty for the recorded one.
-        model: path of a model file; None for that of the bag.
-        params: parameters by NAME or NODE.NAME.
+        controller: name of a controller; empty for the recorded one.
+        model: path of a model file; None for the model in the bag.
+        params: values of parameters by NAME or NODE.NAME.
     """
 
     controller: str = ''
@@ -34,19 +34,19 @@ class Changes:
 
     @property
     def any(self) -> bool:
-        """Whether anything differs."""
+        """Whether there is any change."""
         return bool(self.controller or self.model or self.params)
 
 
 @dataclass(frozen=True)
 class Recomputed:
-    """Commands of a run, recorded and computed again, tick by tick.
+    """Recorded and recomputed commands of a run.
 
     Attributes:
         stamp: (n,) of the commands [ns].
         recorded: (n, 2) velocities in the world frame [m/s].
-        computed: (n, 2) the same, computed from the recorded poses.
-        skipped: commands that could not be computed, because their poses are not in the bag.
+        computed: (n, 2) velocities computed from the recorded poses [m/s].
+        skipped: number of commands that were not computed because the bag lacks their poses.
     """
 
     stamp: Nanoseconds
@@ -64,34 +64,34 @@ class Recomputed:
 
     @property
     def same(self) -> bool:
-        """Whether all commands were computed, and are the same bit for bit."""
+        """Whether all commands were computed and are equal bit for bit."""
         return not (self.skipped or self.differs.any())
 
     def text(self) -> str:
-        """Lines for a person."""
+        """The comparison as lines of text."""
         differs, count = self.differs, self.stamp.size
         lines = [f'{count - differs.sum()} of {count} commands are the same, bit for bit']
         if differs.any():
             lines.append(self._difference_text())
         if self.skipped:
-            lines.append(f'{self.skipped} commands not computed: the bag has no poses for them')
+            lines.append(f'{self.skipped} commands not computed: the bag lacks their poses')
         return '\n'.join(lines) + '\n'
 
     def _difference_text(self) -> str:
-        away = 1e3 * np.hypot(*(self.computed - self.recorded).T)
-        worst = int(np.argmax(away))
+        size = 1e3 * np.hypot(*(self.computed - self.recorded).T)
+        worst = int(np.argmax(size))
         first = (self.stamp[int(np.argmax(self.differs))] - self.stamp[0]) * 1e-9
         at = (self.stamp[worst] - self.stamp[0]) * 1e-9
-        rms = float(np.sqrt(np.mean(away**2)))
-        median, p99 = np.percentile(away, (50, 99)).tolist()
+        rms = float(np.sqrt(np.mean(size**2)))
+        median, p99 = np.percentile(size, (50, 99)).tolist()
         return (
             f'difference: rms {rms:.3g}, median {median:.3g}, p99 {p99:.3g}, '
-            f'largest {away[worst]:.3g} mm/s at {at:.2f} s, first at {first:.2f} s'
+            f'largest {size[worst]:.3g} mm/s at {at:.2f} s, first at {first:.2f} s'
         )
 
 
 def recomputed(run: Path, changes: Changes) -> Recomputed:
-    """The commands of a run, computed again by the controller that is installed.
+    """Recomputes the commands of a run with the installed controller.
 
     Raises:
         InputError: no controller is installed, or the bag lacks what it needs.
@@ -100,5 +100,5 @@ def recomputed(run: Path, changes: Changes) -> Recomputed:
     if not engines:
         raise InputError('no controller is installed; build and source push_bringup')
     compute: Any = engines[0].load()
-    found: Recomputed = compute(run, changes)
-    return found
+    result: Recomputed = compute(run, changes)
+    return result

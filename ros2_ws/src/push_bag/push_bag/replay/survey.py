@@ -1,4 +1,4 @@
-"""One look through a bag: which topics it has, and from when to when."""
+"""Topics and time span of a bag, from one pass through it."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -12,12 +12,12 @@ from push_bag.file import BagReader, Topic
 
 @dataclass(frozen=True)
 class Survey:
-    """What a look found.
+    """Topics and time span of a bag.
 
     Attributes:
-        topics: that have messages, by full name.
+        topics: selected topics with messages, by full name.
         first_ns: earliest log time of any message in the bag [ns].
-        last_ns: latest one of these topics.
+        last_ns: latest log time on the selected topics [ns].
     """
 
     topics: Mapping[str, Topic]
@@ -26,26 +26,26 @@ class Survey:
 
     @property
     def seconds(self) -> float:
-        """Time [s] from the beginning of the bag to the last message of these topics."""
+        """Time [s] from the beginning of the bag to the last message of the selected topics."""
         return (self.last_ns - self.first_ns) * 1e-9
 
 
 def survey(path: Path, names: Sequence[str] | None) -> Survey:
-    """Looks through a bag.
+    """Surveys a bag.
 
     Args:
         path: run folder or MCAP file.
-        names: of the topics wanted, whole or their last part; None for all.
+        names: of the topics to select, full or last part only; None for all.
 
     Raises:
-        InputError: there is no readable bag, nothing in it, or no topic of such a name.
+        InputError: there is no readable bag, it is empty, or lacks a topic.
     """
     reader = BagReader(path)
     spans: dict[str, tuple[int, int]] = {}
     for record in reader.records():
         first, last = spans.get(record.topic.name, (record.log_ns, record.log_ns))
         spans[record.topic.name] = min(first, record.log_ns), max(last, record.log_ns)
-    topics = _wanted({name: reader.topics[name] for name in spans}, names)
+    topics = _selected({name: reader.topics[name] for name in spans}, names)
     seen = [spans[name] for name in topics]
     if not seen:
         raise InputError(
@@ -55,14 +55,14 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
     return Survey(topics, begin, max(last for _, last in seen))
 
 
-def _wanted(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[str, Topic]:
+def _selected(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[str, Topic]:
     if names is None:
         return dict(topics)
-    wanted: dict[str, Topic] = {}
+    selected: dict[str, Topic] = {}
     for name in names:
-        found = [full for full in topics if name in (full, full[1:], short_name(full))]
-        if not found:
+        matches = [full for full in topics if name in (full, full[1:], short_name(full))]
+        if not matches:
             known = ', '.join(sorted(topics))
             raise InputError(f'the bag has no message of a topic {name}; it has those of {known}')
-        wanted |= {full: topics[full] for full in found}
-    return wanted
+        selected |= {full: topics[full] for full in matches}
+    return selected

@@ -1,4 +1,4 @@
-"""The messages that a cell would have published in a measured run."""
+"""A measured run as the messages that a cell would have published."""
 
 import math
 from collections.abc import Iterator
@@ -44,23 +44,23 @@ def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
         stamp = START_NS + round(time * 1e9)
         last = row == len(run.time) - 1
         for topic, message in (
-            (OBJECT_POSE, _posed(run.pose[row])),
-            (PUSHER_POSE, _posed(np.array([*run.tip[row], 0.0]))),
-            (PUSHER_VELOCITY_CMD, _moving(velocity[row])),
+            (OBJECT_POSE, _pose_message(run.pose[row])),
+            (PUSHER_POSE, _pose_message(np.array([*run.tip[row], 0.0]))),
+            (PUSHER_VELOCITY_CMD, _velocity_message(velocity[row])),
             (CONTROLLER_STATE, _state(run, slider, row, progress[row], last)),
         ):
             message.header.frame_id, message.header.stamp = 'world', to_stamp(stamp)
             yield topic.absolute_name, serialize_message(message), stamp
 
 
-def _posed(pose: Floats) -> Any:
+def _pose_message(pose: Floats) -> Any:
     message = PoseStamped()
     message.pose.position.x, message.pose.position.y = pose[:2].tolist()
     _, _, message.pose.orientation.z, message.pose.orientation.w = yaw_to_quaternion(pose[2])
     return message
 
 
-def _moving(velocity: Floats) -> Any:
+def _velocity_message(velocity: Floats) -> Any:
     message = TwistStamped()
     message.twist.linear.x, message.twist.linear.y = velocity.tolist()
     return message
@@ -87,7 +87,7 @@ def _state(run: RobotRun, slider: Slider, row: int, progress: float, last: bool)
 
 
 def _reference(run: RobotRun, slider: Slider) -> Any:
-    """The line along x, timed by the object's own progress."""
+    """The reference: the x axis, timed by the object's own progress."""
     count = len(run.time)
     time = np.linspace(0.0, run.time[-1], count)
     x = np.interp(time, run.time, run.progress)

@@ -34,8 +34,8 @@ class Contact:
 
 def contact(run: RunSeries, reference: Reference) -> Contact:
     """Gap and contact offset of a run during tracking."""
-    index, found = run.pusher.at(run.object.stamp)
-    used = found & during_tracking(run, run.object.stamp)
+    index, exists = run.pusher.at(run.object.stamp)
+    used = exists & during_tracking(run, run.object.stamp)
     pose, tip = run.object.values[used], run.pusher.values[index[used]]
     x_body, y_body = points_to_body(pose, tip).T
     gap = -reference.side / 2.0 - reference.tip_radius - x_body
