@@ -16,6 +16,7 @@ from cell_command import PATIENT, Ended
 from mcap_ros2.reader import read_ros2_messages
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_run
+from push_sim.settings import profile
 from rosbags.highlevel import AnyReader
 
 LINE = ('--track', 'line', '--speed', '0.15')
@@ -39,6 +40,16 @@ def lost_messages(run: Ended) -> int:
     return sum(count['lost'] for count in score_of(run)['messages'].values())
 
 
+def assert_truth_pairs_with_poses(run: Ended) -> None:
+    recorded = read_run(run.folder)
+    truth, measured = recorded.truth, recorded.object
+    np.testing.assert_array_equal(truth.stamp, measured.stamp)
+    noise = (measured.values - truth.values)[:, :2]
+    stated = profile('irb120').sensor.position_noise
+    assert np.std(noise) == pytest.approx(stated, rel=0.2)
+    assert np.max(np.abs(noise)) < 6.0 * stated
+
+
 def test_a_run_in_lockstep_is_completed_recorded_whole_and_tracks(
     run_cell: Callable[..., Ended],
 ) -> None:
@@ -50,6 +61,7 @@ def test_a_run_in_lockstep_is_completed_recorded_whole_and_tracks(
     assert score['model']['points'] == 200
     assert score['tracking_error_mm']['mean'] < 1.6
     assert lost_messages(run) == 0
+    assert_truth_pairs_with_poses(run)
     assert (run.folder / 'report.html').stat().st_size < 6e6
 
 

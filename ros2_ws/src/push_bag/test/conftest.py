@@ -22,8 +22,9 @@ WALL_0 = 1_700_000_000_000_000_000
 ARMED_TICKS = 20
 LEAD_TICKS = 11  # in TRACKING before the reference starts
 DONE_TICKS = 10
+TRUTH = 'push_sim/ground_truth'
 FLUSH_TICKS = 25  # as the recorder does every 0.25 s
-EXTRA = ('perturbation', 'horizon', 'run_end')
+EXTRA = ('perturbation', 'horizon', 'run_end', TRUTH)
 HORIZON = np.linspace(0.0, 0.35, 36)  # [s] ahead
 CORE = {topic.name: topic for topic in TOPICS if topic.core or topic.name in EXTRA}
 
@@ -46,6 +47,7 @@ class Synthetic:
     path: object = on_circle
     duration: float = 1.5
     displaced: object = lambda pose, time: pose
+    truth: object = None  # true pose (3,), of the displaced pose and the time
     gap: object = lambda time: 0.0
     command_delay_ns: object = lambda tick: 1_500_000
     unanswered: tuple = ()
@@ -83,6 +85,8 @@ class Recorder:
         self.synthetic = synthetic
         self.sequences = dict.fromkeys(CORE, 0)
         for topic in CORE.values():
+            if topic.name == TRUTH and synthetic.truth is None:
+                continue
             self.bag.add_topic(f'/{topic.name}', topic.type_name, qos_text(topic.qos))
 
     def message(self, name, tick):
@@ -115,6 +119,10 @@ class Recorder:
         pose = synthetic.displaced(synthetic.path(inside), inside)
         self.write('object_pose', tick, self.posed(tick, 'object_pose', pose))
         self.write('pusher_pose', tick, self.posed(tick, 'pusher_pose', self.tip(pose, time)))
+        if synthetic.truth is not None:
+            truth = self.message(TRUTH, tick)
+            truth.pose = synthetic.truth(pose, inside)
+            self.write(TRUTH, tick, truth)
         if tick not in synthetic.unanswered:
             delay = synthetic.command_delay_ns(tick)
             self.write(

@@ -10,6 +10,7 @@ from push_bag.commands.score import main
 from push_bag.file.bag_writer import BagWriter
 from push_bag.report.report import write_results
 from push_bag.score.score import score_run
+from push_bag.score.score_table import score_table
 from push_core.common.errors import InputError
 from push_core.common.strict_json import json_text
 from push_msgs.msg import ControllerState
@@ -37,6 +38,30 @@ def test_a_circle_of_3_mm_about_the_reference_scores_3_mm(record):
     figures = score['tracking_error_mm']
     assert figures == pytest.approx(dict.fromkeys(figures, 3.0), abs=1e-9)
     assert 2.9 < score['cross_track_mm']['max'] <= 3.0 + 1e-9
+
+
+def test_a_true_pose_4_mm_beside_a_perfect_measurement_scores_4_mm(record):
+    def beside(pose, _time):
+        return pose + np.array([0.0, 0.004, 0.1])
+
+    score = score_run(record(truth=beside))
+    assert score['truth'] == pytest.approx(dict.fromkeys(score['tracking_error_mm'], 4.0))
+    assert score['tracking_error_mm']['max'] == pytest.approx(0.0, abs=1e-9)
+    assert 'error of the true pose  mean 4.00  rms 4.00' in score_table(score)
+
+
+def test_a_true_pose_on_the_reference_scores_zero_however_wrong_the_measurement(record, paths):
+    score = score_run(record(displaced=circling, truth=lambda _, time: paths['circle'](time)))
+    assert score['truth'] == pytest.approx(dict.fromkeys(score['truth'], 0.0), abs=1e-9)
+    assert score['tracking_error_mm']['mean'] == pytest.approx(3.0)
+
+
+def test_a_bag_without_ground_truth_scores_null_and_exceeds_any_bound_on_it(perfect, capsys):
+    score = score_run(perfect)
+    assert score['truth'] is None
+    assert 'none: the bag holds no ground truth' in score_table(score)
+    assert main([str(perfect), '--fail-above', 'truth.mean=100']) == 1
+    assert 'has no truth.mean' in capsys.readouterr().err
 
 
 def test_a_lag_of_50_ms_scores_4_mm_along_the_path_and_none_across(record, paths):

@@ -27,12 +27,12 @@ from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
-LAP = Lap(True, '', 1.5, 4.0, 3.0, ((0.0, 1.0), (2.0, 3.0)))
+LAP = Lap(True, '', 1.5, 4.0, 1.4, 3.0, ((0.0, 1.0), (2.0, 3.0)))
 
 
 def with_error(millimetres: float, completed: bool = True) -> Lap:
     reason = '' if completed else 'left the face'
-    return Lap(completed, reason, millimetres, millimetres, 3.0, ())
+    return Lap(completed, reason, millimetres, millimetres, 0.5 * millimetres, 3.0, ())
 
 
 def test_a_lap_is_judged_by_its_error_and_its_end() -> None:
@@ -83,8 +83,9 @@ def test_the_table_tells_median_spread_and_completed_laps() -> None:
     row = PaperRow(Experiment('eight', 0.08), 'gp', 'irb120', laps)
     told = row.as_json()
     assert (told['median_mm'], told['spread_mm'], told['completed']) == (2.0, 3.0, 2)
+    assert told['truth_median_mm'] == 1.0
     assert told['paper_mm'] == PAPER_MM[row.experiment]['gp'] == 8.5
-    assert '| 2 of 3 | 2.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [told]})
+    assert '| 2 of 3 | 2.00 mm | 1.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [told]})
     assert 'eight 80 mm' in table_page([row])
 
 

@@ -16,7 +16,7 @@ from push_core.physics.slider import Slider
 from push_mpc.settings.node_settings import mpc_settings
 from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
-from push_node import qos
+from push_node import interface, qos
 from push_node.ask import ask
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
@@ -177,6 +177,15 @@ def test_it_does_not_start_without_poses(cell, started) -> None:
     cell.call_until('start', lambda answer: 'model' not in answer.message)
     answer = cell.call('start')
     assert (answer.success, answer.message) == (False, 'waiting for poses')
+
+
+def test_it_does_not_listen_to_the_ground_truth(cell, started) -> None:
+    started(LINE)
+    cell.wait(lambda: len(cell.plans) > 0)
+    topics = cell.node.get_subscriber_names_and_types_by_node('mpc_node', '/')
+    heard = {name for name, _ in topics}
+    assert interface.OBJECT_POSE.absolute_name in heard
+    assert interface.GROUND_TRUTH.absolute_name not in heard
 
 
 def test_it_is_silent_while_idle_and_announces_its_plan(cell, started) -> None:

@@ -83,6 +83,14 @@ PERTURBATION = GraphTopic(
     ('sim_node',),
     'a disturbance that the plant applied',
 )
+GROUND_TRUTH = GraphTopic(
+    'push_sim/ground_truth',
+    'push_msgs/msg/GroundTruth',
+    STATE,
+    '100 Hz',
+    ('sim_node',),
+    'true state of the plant at the exposure of the poses with the same stamp; for scores only',
+)
 RUN_END = GraphTopic(
     'run_end',
     'std_msgs/msg/String',
@@ -126,7 +134,7 @@ CLOCK = GraphTopic(
 
 TOPICS = (
     *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD, NOMINAL_TRAJECTORY, CONTROLLER_STATE),
-    *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, RUN_END, SCENE_MARKERS),
+    *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, GROUND_TRUTH, RUN_END, SCENE_MARKERS),
     *(DIAGNOSTICS, TRANSFORMS, CLOCK),
 )
 

@@ -44,6 +44,16 @@ def test_a_sensor_without_noise_shows_the_truth() -> None:
     assert np.array_equal(seen.tip_position, TIP)
 
 
+@pytest.mark.parametrize(
+    'trouble', [{'position_noise': 1e-3, 'angle_noise': 1e-2}, {'freeze_rate': 5.0}]
+)
+def test_the_truth_of_a_picture_is_the_pose_at_its_exposure(trouble: dict[str, float]) -> None:
+    pictures = shown(SensorSettings(**trouble), 200)
+    moved = POSE + np.outer(np.arange(200), [0.001, 0.0, 0.0])
+    assert np.array_equal([picture.truth.object_pose for picture in pictures], moved)
+    assert np.max(np.abs([picture.object_pose for picture in pictures] - moved)[:, 0]) > 1e-3
+
+
 def test_the_heading_is_shown_between_minus_and_plus_half_a_turn() -> None:
     sensor = Sensor(SensorSettings(position_noise=0.0, angle_noise=0.0))
     assert sensor.measured_pose(np.array([0.0, 0.0, 4.0]))[2] == pytest.approx(4.0 - 2.0 * math.pi)

@@ -101,9 +101,10 @@ def _verdict(score: Mapping[str, Any]) -> str:
 
 
 def _headlines(score: Mapping[str, Any]) -> list[tuple[str, str]]:
-    errors = score['tracking_error_mm']
+    errors, truth = score['tracking_error_mm'], score['truth']
     return [
         ('mean tracking error', _measure(errors['mean'], 'mm')),
+        *([('mean error of the true pose', _measure(truth['mean'], 'mm'))] if truth else []),
         ('largest tracking error', _measure(errors['max'], 'mm')),
         ('p99 of solving', _measure(score['solve_ms']['p99'], 'ms')),
         ('p99 of pose to command', _measure(score['pose_to_command_ms']['p99'], 'ms')),

@@ -24,6 +24,7 @@ POSE_FIELDS = (
     'pose.orientation.w',
 )
 TWIST_FIELDS = (*STAMP, 'twist.linear.x', 'twist.linear.y')
+TRUTH_FIELDS = (*STAMP, 'pose')
 SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited')
 STATE_FIELDS = (
     *STAMP,
@@ -53,6 +54,11 @@ def planar_poses(columns: Columns) -> Floats:
 def positions(columns: Columns) -> Floats:
     """X and y [m] (n, 2) of poses."""
     return np.column_stack([columns['pose.position.x'], columns['pose.position.y']])
+
+
+def true_poses(columns: Columns) -> Floats:
+    """X [m], y [m] and heading [rad] (n, 3) of the object in ground truths."""
+    return np.asarray(columns['pose'], np.float64)
 
 
 def velocities(columns: Columns) -> Floats:

@@ -11,6 +11,7 @@ from push_bag.file import BagReader, Columns, Record, Traffic
 from push_bag.run.conversions import (
     POSE_FIELDS,
     STATE_FIELDS,
+    TRUTH_FIELDS,
     TWIST_FIELDS,
     model,
     perturbation,
@@ -18,6 +19,7 @@ from push_bag.run.conversions import (
     positions,
     reference,
     ticks,
+    true_poses,
     velocities,
 )
 from push_bag.run.series import (
@@ -57,6 +59,7 @@ class _Rows:
         self._tables = {
             interface.OBJECT_POSE.short_name: TopicTable(POSE_FIELDS, 3, planar_poses),
             interface.PUSHER_POSE.short_name: TopicTable(POSE_FIELDS, 2, positions),
+            interface.GROUND_TRUTH.short_name: TopicTable(TRUTH_FIELDS, 3, true_poses),
             interface.PUSHER_VELOCITY_CMD.short_name: TopicTable(TWIST_FIELDS, 2, velocities),
             interface.CONTROLLER_STATE.short_name: TopicTable(
                 STATE_FIELDS, len(STATE_COLUMNS), self._states
@@ -102,6 +105,7 @@ class _Rows:
             finished=reader.finished,
             traffic={name: self.traffic.get(name, Traffic()) for name in reader.topics},
             object=tables[interface.OBJECT_POSE.short_name],
+            truth=tables[interface.GROUND_TRUTH.short_name],
             pusher=tables[interface.PUSHER_POSE.short_name],
             commands=tables[interface.PUSHER_VELOCITY_CMD.short_name],
             states=tables[interface.CONTROLLER_STATE.short_name],

@@ -120,6 +120,7 @@ class RunSeries:
         finished: whether the bag has its footer.
         traffic: message counts by topic.
         object: pose (n, 3) of the square [m, m, rad].
+        truth: true pose (n, 3) of the square [m, m, rad]; empty where none was recorded.
         pusher: position (n, 2) of the tip [m].
         commands: velocity (n, 2) in the world frame [m/s].
         states: (n, len(STATE_COLUMNS)) of the controller's ticks, see `state`.
@@ -135,6 +136,7 @@ class RunSeries:
     finished: bool
     traffic: Mapping[str, Traffic]
     object: Stamped
+    truth: Stamped
     pusher: Stamped
     commands: Stamped
     states: Stamped

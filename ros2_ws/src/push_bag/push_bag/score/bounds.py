@@ -20,6 +20,8 @@ COMPARED = (
     'tracking_error_mm.p95',
     'tracking_error_mm.max',
     'tracking_error_mm.mean_after_start',
+    'truth.mean',
+    'truth.max',
     'cross_track_mm.mean',
     'cross_track_mm.rms',
     'cross_track_mm.max',
@@ -59,6 +61,8 @@ def figure(score: Mapping[str, Any], name: str) -> float:
         return float(not score['completed'])
     value: Any = score
     for part in name.split('.'):
+        if value is None:
+            break
         if not isinstance(value, Mapping) or part not in value:
             raise InputError(f'a score has no figure {name!r}; name one such as {COMPARED[0]}')
         value = value[part]

@@ -11,6 +11,7 @@ from push_bag.score.bounds import COMPARED, figure
 # the figures that fit on a line; the JSON has all of COMPARED
 SHOWN = {
     'mean mm': 'tracking_error_mm.mean',
+    'truth mm': 'truth.mean',
     'rms mm': 'tracking_error_mm.rms',
     'p95 mm': 'tracking_error_mm.p95',
     'max mm': 'tracking_error_mm.max',

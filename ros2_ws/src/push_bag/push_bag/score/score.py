@@ -17,7 +17,7 @@ from push_bag.run import Floats, Reference, RunSeries, read_run
 from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.message_counts import message_counts
 from push_bag.score.timing import timing
-from push_bag.score.tracking import Tracking, track
+from push_bag.score.tracking import Tracking, track, track_truth
 
 LIMITS = {
     'not_finite': ControllerState.LIMITED_NOT_FINITE,
@@ -50,11 +50,12 @@ def score_series(run: RunSeries) -> dict[str, Any]:
     """
     if run.reference is None:
         raise InputError('the bag holds no nominal trajectory, so there is nothing to score')
-    tracking = track(run, run.reference)
+    tracking, truth = track(run, run.reference), track_truth(run, run.reference)
     score = {
         **_verdict(run, run.reference, tracking),
         **_setting(run, run.reference),
         **_errors(tracking),
+        'truth': None if truth is None else _distances(truth),
         **_times(run),
         'contact_losses': len(loss_intervals(contact(run, run.reference))),
         'holds': holds(run),
@@ -128,23 +129,27 @@ def _model(run: RunSeries) -> dict[str, Any] | None:
 
 
 def _errors(tracking: Tracking) -> dict[str, Any]:
-    distance = tracking.distance * 1e3
     cross = tracking.cross_track * 1e3
     heading = np.abs(np.degrees(tracking.heading))
     return {
-        'tracking_error_mm': {
-            'mean': _mean(distance),
-            'rms': _rms(distance),
-            'p95': _percentile(distance, 95.0),
-            'max': _max(distance),
-            'mean_after_start': _mean(distance[tracking.after_start]),
-        },
+        'tracking_error_mm': _distances(tracking),
         'cross_track_mm': {'mean': _mean(cross), 'rms': _rms(cross), 'max': _max(np.abs(cross))},
         'heading_error_deg': {
             'mean': _mean(heading),
             'rms': _rms(heading),
             'max': _max(heading),
         },
+    }
+
+
+def _distances(tracking: Tracking) -> dict[str, float]:
+    distance = tracking.distance * 1e3
+    return {
+        'mean': _mean(distance),
+        'rms': _rms(distance),
+        'p95': _percentile(distance, 95.0),
+        'max': _max(distance),
+        'mean_after_start': _mean(distance[tracking.after_start]),
     }
 
 

@@ -22,6 +22,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('model', _model(score['model'])),
         ('duration', _number(score['duration_s'], 's')),
         ('tracking error', _figures(score['tracking_error_mm'], 'mm')),
+        ('error of the true pose', _truth(score['truth'])),
         ('cross-track error', _figures(score['cross_track_mm'], 'mm')),
         ('heading error', _figures(score['heading_error_deg'], 'deg')),
         ('solve', _figures(score['solve_ms'], 'ms')),
@@ -78,6 +79,10 @@ def _model(model: Mapping[str, Any] | None) -> str:
 def _figures(figures: Mapping[str, float | None], unit: str) -> str:
     named = (f'{name.replace("_", " ")} {_number(value)}' for name, value in figures.items())
     return '  '.join(named) + f'  {unit}'
+
+
+def _truth(figures: Mapping[str, float | None] | None) -> str:
+    return 'none: the bag holds no ground truth' if figures is None else _figures(figures, 'mm')
 
 
 def _counts(counts: Mapping[str, int]) -> str:

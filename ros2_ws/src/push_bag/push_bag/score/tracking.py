@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_core.geometry import wrap_angles
 
-from push_bag.run import Floats, Nanoseconds, Reference, RunSeries
+from push_bag.run import Floats, Nanoseconds, Reference, RunSeries, Stamped
 from push_bag.score.segments import Segments
 
 NEAR = 0.06  # [m] of path before and after, in which the nearest point is searched
@@ -30,7 +30,7 @@ class Tracking:
     Attributes:
         stamp: (n,) of the poses [ns].
         reference_time: (n,) [s].
-        pose: (n, 3) measured [m, m, rad].
+        pose: (n, 3) measured, or true [m, m, rad].
         reference: (n, 3) reference pose at the reference time [m, m, rad].
         distance: (n,) tracking error [m].
         cross_track: (n,) [m].
@@ -76,9 +76,18 @@ def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
 
 
 def track(run: RunSeries, reference: Reference) -> Tracking:
-    """The errors of a run against its reference."""
-    tracked = during_tracking(run, run.object.stamp)
-    stamp, pose = run.object.stamp[tracked], run.object.values[tracked]
+    """The errors of the measured poses of a run against its reference."""
+    return _tracking(run, reference, run.object)
+
+
+def track_truth(run: RunSeries, reference: Reference) -> Tracking | None:
+    """The errors of the true poses of a run against its reference; None without ground truth."""
+    return _tracking(run, reference, run.truth) if run.truth.stamp.size else None
+
+
+def _tracking(run: RunSeries, reference: Reference, poses: Stamped) -> Tracking:
+    tracked = during_tracking(run, poses.stamp)
+    stamp, pose = poses.stamp[tracked], poses.values[tracked]
     time = reference_times(run, stamp) if stamp.size else np.zeros(0)
     counts = (time > 0.0) & (time <= reference.duration + TIME_ROUNDING)
     stamp, pose, time = stamp[counts], pose[counts], time[counts]

@@ -35,6 +35,7 @@ class PaperRow:
             'seeds': len(self.laps),
             'completed': self.completed,
             'median_mm': median(errors),
+            'truth_median_mm': median(lap.truth_mean_mm for lap in self.laps),
             'mean_mm': fmean(errors),
             'spread_mm': max(errors) - min(errors),
             'paper_mm': PAPER_MM[self.experiment].get(self.controller),

@@ -12,7 +12,10 @@ from push_report.page import drawn, page, section
 from push_bringup.bench.rows import PaperRow
 from push_bringup.experiment import LapJob
 
-HEADS = ('track', 'speed', 'perturbation', 'controller', 'profile', 'laps', 'median', 'paper')
+HEADS = (
+    *('track', 'speed', 'perturbation', 'controller', 'profile', 'laps'),
+    *('median', 'truth', 'paper'),
+)
 TALL = 380
 COLUMNS = tuple(CONTROLLERS)
 
@@ -42,6 +45,7 @@ def _row(row: PaperRow) -> str:
         row.profile,
         f'{row.completed} of {len(row.laps)}',
         f'{figures["median_mm"]:.2f} mm',
+        f'{figures["truth_median_mm"]:.2f} mm',
         f'{figures["paper_mm"]:.2f} mm',
     )
     return '<tr>' + ''.join(f'<td>{escape(cell)}</td>' for cell in cells) + '</tr>'

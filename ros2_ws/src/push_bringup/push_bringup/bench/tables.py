@@ -6,6 +6,9 @@ from typing import Any, TypeAlias
 Found: TypeAlias = Mapping[str, Any]
 """The JSON object of a benchmark."""
 
+PAPER_KEYS = ('median_mm', 'truth_median_mm', 'spread_mm', 'paper_mm')
+"""Of a row of `bench table`: median errors of the measured and of the true poses, and others."""
+
 
 def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """A table of cells as Markdown, which ends its last line."""
@@ -17,14 +20,14 @@ def paper_rows(found: Found) -> str:
     """The table of `bench table`."""
     heads = ('profile', 'track', 'speed', 'perturbation', 'controller', 'laps', 'median')
     return markdown_table(
-        (*heads, 'spread', 'paper'),
+        (*heads, 'truth', 'spread', 'paper'),
         (
             (
                 row['profile'],
                 *_experiment(row),
                 row['controller'],
                 f'{row["completed"]} of {row["seeds"]}',
-                *(_millimetres(row[key]) for key in ('median_mm', 'spread_mm', 'paper_mm')),
+                *(_millimetres(row.get(key)) for key in PAPER_KEYS),
             )
             for row in found['rows']
         ),

@@ -5,6 +5,7 @@ instant, over the run.
 """
 
 import hashlib
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -113,7 +114,8 @@ class Lap:
     Attributes:
         completed: it came to its end without a stop, the tip on the face, the object near.
         stop_reason: why it stopped before, empty if it did not.
-        mean_mm, max_mm: tracking error; of what was pushed, if it stopped.
+        mean_mm, max_mm: tracking error of the measured poses; up to the stop, if it stopped.
+        truth_mean_mm: mean tracking error of the true poses.
         command_step_mm_s: change of the commanded velocity from tick to tick, rms.
         path_mm: where the object's centre was, at most PATH_POINTS places [x, y].
     """
@@ -122,6 +124,7 @@ class Lap:
     stop_reason: str
     mean_mm: float
     max_mm: float
+    truth_mean_mm: float
     command_step_mm_s: float
     path_mm: tuple[tuple[float, float], ...]
 
@@ -155,6 +158,7 @@ class _Watched:
     def __init__(self, cell: InProcessCell) -> None:
         self._plan = cell.controller.plan
         self._errors: list[float] = []
+        self._truth_errors: list[float] = []
         self._path: list[tuple[float, float]] = []
         self._commands: list[Array] = []
         self._last: Tick | None = None
@@ -163,9 +167,10 @@ class _Watched:
         """Takes one tick."""
         if tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
             return
-        wanted = self._plan.at(tick.reference_time)[0]
+        reference = self._plan.at(tick.reference_time)[0][:2]
         x, y = (observation.object_pose[:2] * 1e3).tolist()
-        self._errors.append(float(np.hypot(x - 1e3 * wanted[0], y - 1e3 * wanted[1])))
+        self._errors.append(_distance_mm(observation.object_pose[:2], reference))
+        self._truth_errors.append(_distance_mm(observation.truth.object_pose[:2], reference))
         self._path.append((round(x, 2), round(y, 2)))
         self._commands.append(tick.velocity)
         self._last = tick
@@ -173,7 +178,7 @@ class _Watched:
     def lap(self, reason: str, side: float) -> Lap:
         """The lap, with why it stopped and the side of the square [m]."""
         if self._last is None or self._last.state is None:
-            return Lap(False, reason or 'never tracked', float('inf'), float('inf'), 0.0, ())
+            return Lap(False, reason or 'never tracked', math.inf, math.inf, math.inf, 0.0, ())
         completed = is_completed(
             arrived=not reason,
             distance=1e-3 * self._errors[-1],
@@ -187,6 +192,7 @@ class _Watched:
             stop_reason=reason,
             mean_mm=fmean(self._errors),
             max_mm=max(self._errors),
+            truth_mean_mm=fmean(self._truth_errors),
             command_step_mm_s=self._command_step(),
             path_mm=tuple(self._path[::step]),
         )
@@ -194,3 +200,8 @@ class _Watched:
     def _command_step(self) -> float:
         steps = np.diff(self._commands, axis=0)
         return 1e3 * float(np.sqrt(np.mean(np.sum(steps**2, axis=1)))) if len(steps) else 0.0
+
+
+def _distance_mm(point: Array, other: Array) -> float:
+    """Distance [mm] of two points (2,) [m]."""
+    return float(np.hypot(*(1e3 * point - 1e3 * other)))

@@ -20,6 +20,8 @@ from rclpy.serialization import serialize_message
 
 from push_bringup.in_process.loop import nanoseconds
 
+ALSO_RECORDED = (interface.PERTURBATION, interface.HORIZON, interface.GROUND_TRUTH)
+
 
 class InProcessRecord:
     """Writes what the nodes would have published."""
@@ -32,10 +34,11 @@ class InProcessRecord:
         self._command.header.frame_id = self._state.header.frame_id = 'world'
         steps = controller.settings.horizon_steps
         self._horizon = HorizonMessage(steps, controller.horizon_step)
+        self._truth = sim.GroundTruthMessage(plant.slider)
         self._sequence: dict[str, int] = {}
         self._ticks = 0
         for topic in interface.TOPICS:
-            if topic.core or topic in (interface.PERTURBATION, interface.HORIZON):
+            if topic.core or topic in ALSO_RECORDED:
                 writer.add_topic(topic.absolute_name, topic.type_name, qos_text(topic.qos))
 
     def head(self, settings: MpcSettings, info: ModelInfo) -> None:
@@ -52,6 +55,7 @@ class InProcessRecord:
         stamp = to_stamp(stamp_ns)
         self._write(interface.PUSHER_POSE, sim.position_message(observation.tip_position, stamp))
         self._write(interface.OBJECT_POSE, sim.pose_message(observation.object_pose, stamp))
+        self._write(interface.GROUND_TRUTH, self._truth.of(observation.truth, stamp))
         for applied in self._plant.take_perturbations():
             happened = to_stamp(nanoseconds(applied.time))
             self._write(interface.PERTURBATION, sim.perturbation_message(applied, happened))

@@ -4,9 +4,11 @@ import numpy as np
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.geometry import Array, yaw_to_quaternion
+from push_core.physics import Slider
+from push_msgs.msg import GroundTruth
 from push_msgs.msg import Perturbation as PerturbationMessage
 
-from push_sim.plant import AppliedPerturbation
+from push_sim.plant import AppliedPerturbation, TrueState
 
 FRAME = 'world'
 
@@ -39,3 +41,23 @@ def perturbation_message(applied: AppliedPerturbation, stamp: Time) -> Perturbat
     message.header.stamp = stamp
     message.direction.x, message.direction.y = map(float, applied.direction)
     return message
+
+
+class GroundTruthMessage:
+    """Converts true states to one message that is filled in place."""
+
+    def __init__(self, slider: Slider) -> None:
+        """Allocates the message for a slider."""
+        self._slider = slider
+        self._message = GroundTruth()
+        self._message.header.frame_id = FRAME
+
+    def of(self, state: TrueState, stamp: Time) -> GroundTruth:
+        """The message for a stamp; valid until the next call, which fills the same one."""
+        message, pose, tip = self._message, state.object_pose, state.tip_position
+        message.header.stamp = stamp
+        message.pose[:] = pose
+        message.tip[:] = tip
+        message.p_y = self._slider.contact_offset(pose, tip)
+        message.gap = self._slider.gap(pose, tip)
+        return message

@@ -15,6 +15,7 @@ from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
 
 from push_sim.node.conversions import (
+    GroundTruthMessage,
     commanded_velocity,
     perturbation_message,
     pose_message,
@@ -60,6 +61,9 @@ class SimNode(Node):  # type: ignore[misc]
         self._plant.close()
 
     def _make_publishers(self) -> None:
+        # before the poses, so that a recorder that has found these has found it too
+        self._truth = interface.GROUND_TRUTH.publisher(self)
+        self._truth_message = GroundTruthMessage(self._slider)
         self._object = interface.OBJECT_POSE.publisher(self)
         self._pusher = interface.PUSHER_POSE.publisher(self)
         self._perturbation = interface.PERTURBATION.publisher(self)
@@ -78,6 +82,7 @@ class SimNode(Node):  # type: ignore[misc]
         # the tip first, so that a subscriber that waits for the object's pose has both
         self._pusher.publish(position_message(observation.tip_position, stamp))
         self._object.publish(pose_message(observation.object_pose, stamp))
+        self._truth.publish(self._truth_message.of(observation.truth, stamp))
         self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))
         for applied in self._plant.take_perturbations():
             happened = to_stamp(self._pace.stamp(applied.time))

@@ -2,7 +2,7 @@
 
 from push_sim.plant.perturbation import AppliedPerturbation, Perturbation
 from push_sim.plant.plant import Plant
-from push_sim.plant.sensor import Observation, Sensor
+from push_sim.plant.sensor import Observation, Sensor, TrueState
 from push_sim.settings import PerturbationKind
 
 __all__ = [
@@ -12,4 +12,5 @@ __all__ = [
     'PerturbationKind',
     'Plant',
     'Sensor',
+    'TrueState',
 ]

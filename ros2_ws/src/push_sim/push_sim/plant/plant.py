@@ -156,6 +156,11 @@ class Plant:
         return self._time(0)
 
     @property
+    def slider(self) -> Slider:
+        """The pushed object."""
+        return self._settings[1]
+
+    @property
     def object_pose(self) -> Array:
         """True pose (3,) of the object: x [m], y [m], theta [rad]."""
         return self._world.object_pose

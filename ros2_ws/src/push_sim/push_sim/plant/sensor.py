@@ -18,6 +18,19 @@ FREEZE_DURATION = 0.1
 
 
 @dataclass(frozen=True)
+class TrueState:
+    """Where object and tip are, without noise.
+
+    Attributes:
+        object_pose: (3,) x [m], y [m], theta [rad] of the object.
+        tip_position: (2,) centre of the tip [m].
+    """
+
+    object_pose: Array
+    tip_position: Array
+
+
+@dataclass(frozen=True)
 class Observation:
     """One picture.
 
@@ -25,11 +38,13 @@ class Observation:
         time: plant time of the exposure [s].
         object_pose: (3,) measured x [m], y [m], theta [rad] of the object.
         tip_position: (2,) measured centre of the tip [m].
+        truth: at the exposure; for scores, not for a controller.
     """
 
     time: float
     object_pose: Array
     tip_position: Array
+    truth: TrueState
 
 
 class Sensor:
@@ -61,7 +76,8 @@ class Sensor:
     def expose(self, time: float, object_pose: Array, tip_position: Array) -> None:
         """Takes a picture of the true pose (3,) and tip (2,) at a plant time [s]."""
         shown = self._as_frozen(self.measured_pose(object_pose))
-        picture = Observation(time, shown, self.measured_tip(tip_position))
+        truth = TrueState(object_pose, tip_position)
+        picture = Observation(time, shown, self.measured_tip(tip_position), truth)
         self._pending.append(None if self._is_lost() else picture)
 
     def measured_pose(self, object_pose: Array) -> Array:
