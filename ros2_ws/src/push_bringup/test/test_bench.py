@@ -5,10 +5,8 @@ import math
 from typing import Any
 
 import pytest
-from push_bringup.bench import data as bench_data
-from push_bringup.bench import stopping as bench_stopping
-from push_bringup.bench.data import Choice
-from push_bringup.bench.data_page import data_page
+from push_bringup.bench import stopping
+from push_bringup.bench.paper_page import paper_page
 from push_bringup.bench.rows import (
     TIMES,
     AblationRow,
@@ -18,8 +16,9 @@ from push_bringup.bench.rows import (
     experiment_json,
     times_json,
 )
-from push_bringup.bench.table_page import table_page
 from push_bringup.bench.tables import ablation_rows, paper_rows, real_time_rows, time_ranges
+from push_bringup.bench.training_size import TrainingSet, chosen_rows
+from push_bringup.bench.training_size_page import training_size_page
 from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
@@ -86,7 +85,7 @@ def test_the_table_tells_median_spread_and_completed_laps() -> None:
     assert told['truth_median_mm'] == 1.0
     assert told['paper_mm'] == PAPER_MM[row.experiment]['gp'] == 8.5
     assert '| 2 of 3 | 2.00 mm | 1.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [told]})
-    assert 'eight 80 mm' in table_page([row])
+    assert 'eight 80 mm' in paper_page([row])
 
 
 def test_a_size_tells_the_quartiles_of_the_laps_that_were_completed() -> None:
@@ -97,12 +96,14 @@ def test_a_size_tells_the_quartiles_of_the_laps_that_were_completed() -> None:
     nothing = SizeRow(5, 'zero', 'die', (with_error(9.0, completed=False),)).as_json()
     assert nothing['median_mm'] is nothing['quartiles_mm'] is None
     json.dumps([told, nothing], allow_nan=False)
-    assert 'analytical controller' in data_page([SizeRow(10, 'zero', 'random', laps)], LAP)
+    assert 'analytical controller' in training_size_page(
+        [SizeRow(10, 'zero', 'random', laps)], LAP
+    )
 
 
 def test_nested_draws_of_one_seed_contain_each_other(pushes) -> None:
     small, large = (
-        bench_data.chosen_rows(pushes, Choice(points, 'zero', 'random', 3)) for points in (5, 9)
+        chosen_rows(pushes, TrainingSet(points, 'zero', 'random', 3)) for points in (5, 9)
     )
     assert set(small.tolist()) < set(large.tolist())
 
@@ -173,5 +174,5 @@ def test_an_ablation_names_laps_that_were_not_completed_or_never_tracked() -> No
 
 
 def test_stopping_is_told_by_median_and_largest() -> None:
-    told = bench_stopping.text([0.5, 0.75, 2.0])
+    told = stopping.text([0.5, 0.75, 2.0])
     assert 'median 0.75 s, largest 2.00 s of 3 runs' in told

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from mcap.reader import make_reader
 from push_bringup.commands.cell import main
+from push_bringup.comparison.qp_recording import lap_request
 from push_bringup.graph.cell_lock import CellLock
-from push_bringup.rivals.qp_recording import lap_request
 from push_bringup.setup.run_folder import new_run_folder
 from push_core.common.errors import RunError
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from push_bringup.commands.bench import main
+from push_bringup.comparison.qp_recording import lap_request
+from push_bringup.comparison.qp_solvers import IN_SI_UNITS, SOLVERS, exact
 from push_bringup.in_process.loop import InProcessCell
-from push_bringup.rivals.qp_recording import lap_request
-from push_bringup.rivals.qp_solvers import IN_SI_UNITS, SOLVERS, exact
 from push_bringup.setup.cell_parameters import installed_config, resolved
 from push_gp.models.analytical_model import AnalyticalModel
 from push_mpc.loop.controller import Mode

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from push_bringup.bench import table as bench_table
-from push_bringup.commands.bench import BENCHES
+from push_bringup.bench import paper_table
+from push_bringup.bench.benches import BENCHES
 from push_bringup.results import results as bench_results
 from push_bringup.results.documents import document_paths, quoted, results_page
 from push_bringup.results.figures import figures
@@ -97,7 +97,7 @@ def test_only_some_sections_are_run_and_the_others_stay(tmp_path: Path, monkeypa
         sys.stdout.write(json.dumps({'rows': [ROW]}))
         return 1
 
-    monkeypatch.setattr(bench_table, 'main', table)
+    monkeypatch.setattr(paper_table, 'main', table)
     (tmp_path / 'docs').mkdir()
     page, guide = tmp_path / 'docs' / 'results.md', tmp_path / 'guide.md'
     guide.write_text('<!-- figure: eight_80_gp -->?<!-- / -->')
@@ -116,7 +116,7 @@ def test_only_some_sections_are_run_and_the_others_stay(tmp_path: Path, monkeypa
 
 
 def test_a_benchmark_that_could_not_run_leaves_no_results(monkeypatch, tmp_path, capsys) -> None:
-    monkeypatch.setattr(bench_table, 'main', lambda _options: 2)
+    monkeypatch.setattr(paper_table, 'main', lambda _options: 2)
     page = tmp_path / 'results.md'
     assert bench_results.main(['-o', str(page)]) == 1
     assert 'bench table ended with status 2' in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""`bench ablation`: what each part of the controller is worth, with one part off at a time."""
+"""`bench ablation`: the controller with one part switched off at a time."""
 
 import argparse
 import sys
@@ -32,7 +32,7 @@ VARIANTS: Mapping[str, Mapping[str, object]] = {
     '35 steps, 0.35 s': {'horizon_steps': 35, 'horizon_step': 0.01},
     'preset paper': {'preset': 'paper'},
 }
-"""What is off, and the parameters that switch it off."""
+"""Name of a variant, to the parameters that make it."""
 
 EPILOG = """Example: bench ablation --seeds 3 --controller gp
 Exit status: 0 done, also where laps were not completed, 2 the command was wrong.
@@ -46,7 +46,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser("Pushes the paper's rows, and 150 mm/s, with parts off.", EPILOG)
+    described = Parser(
+        "Pushes the paper's experiments, and 150 mm/s, with parts switched off.", EPILOG
+    )
     described.prog = 'bench ablation'
     described.add_argument('--seeds', type=int, default=3, help='laps of each (default 3)')
     described.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
@@ -77,7 +79,7 @@ def work(arguments: argparse.Namespace) -> None:
         'rows': [row.as_json() for row in rows],
     }
     if arguments.html is not None:
-        # plotly takes a second to import: only who asks for a page waits for it
+        # plotly takes a second to import: only a page needs it
         from push_report.page import write_page  # noqa: PLC0415
 
         lines = ablation_rows(finite(found)).splitlines()

@@ -1,4 +1,4 @@
-"""What the benchmarks have in common on their command lines, and how they print their results."""
+"""Options that benchmarks share, and how they print their results."""
 
 import argparse
 import sys
@@ -14,7 +14,7 @@ from push_bringup.experiment import LapStore, cores
 
 
 def add_lap_options(parser: Parser, laps: Path) -> None:
-    """The options that every benchmark of laps takes."""
+    """The options of every benchmark that pushes laps."""
     parser.add_argument(
         '--jobs', type=int, default=cores(), help='processes (default %(default)s)'
     )
@@ -25,9 +25,9 @@ def add_lap_options(parser: Parser, laps: Path) -> None:
         type=Path,
         default=laps,
         metavar='FILE',
-        help='keeps finished laps, so that an interrupted run goes on (default %(default)s)',
+        help='finished laps, so that an interrupted run continues (default %(default)s)',
     )
-    parser.add_argument('--fresh', action='store_true', help='forget the laps of that file')
+    parser.add_argument('--fresh', action='store_true', help='ignore the laps in that file')
 
 
 def add_controllers(parser: Parser) -> None:

@@ -1,4 +1,4 @@
-"""`bench stopping`: how long a cell takes to end when it is interrupted in the middle of a lap."""
+"""`bench stopping`: how long a cell takes to end when it is interrupted during a lap."""
 
 import argparse
 import signal
@@ -19,10 +19,10 @@ from tqdm import tqdm
 from push_bringup.bench.options import check_positive
 
 READY_TIMEOUT = 120.0  # [s] from the command to the first push
-LOOKING_PERIOD = 0.2  # [s]
+POLL_PERIOD = 0.2  # [s]
 EPILOG = """Example: bench stopping --runs 5
-Each run is one of `cell`, interrupted as by Ctrl-C once it tracks; the time is that from the
-signal to the end of the command: the tip rests, all nodes have ended, the bag is finished.
+Each run of `cell` is interrupted as by Ctrl-C once it tracks. The time is from the signal to the
+end of the command: the tip is at rest, all nodes have ended, the bag is finished.
 Nothing else should run meanwhile.
 Exit status: 0 each left a finished bag, 1 one did not, 2 the command was wrong.
 """
@@ -35,33 +35,35 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser('Interrupts the cell in the middle of a lap, in real time.', EPILOG)
+    described = Parser('Interrupts the cell during a lap, in real time.', EPILOG)
     described.prog = 'bench stopping'
-    described.add_argument('--runs', type=int, default=5, help='(default %(default)s)')
+    described.add_argument(
+        '--runs', type=int, default=5, help='number of runs (default %(default)s)'
+    )
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
     return described
 
 
 def work(arguments: argparse.Namespace) -> int:
-    """Interrupts runs and prints how long they took.
+    """Interrupts runs and prints how long they took to end.
 
     Raises:
         InputError: a number is out of range.
-        RunError: a run did not get as far as tracking, or its bag is not finished.
+        RunError: a run did not reach tracking, or its bag is not finished.
     """
     check_positive('--runs', arguments.runs)
     runs = tqdm(range(arguments.runs), 'stopping', unit=' runs', disable=None)
     seconds = [stopping_time() for _ in runs]
-    told = {'runs': len(seconds), 'median_s': median(seconds), 'max_s': max(seconds)}
+    found = {'runs': len(seconds), 'median_s': median(seconds), 'max_s': max(seconds)}
     if arguments.json:
-        sys.stdout.write(json_text(told))
+        sys.stdout.write(json_text(found))
     else:
         sys.stdout.write(text(seconds))
     return 0
 
 
 def text(seconds: Sequence[float]) -> str:
-    """The line for a person."""
+    """The line to print."""
     return (
         f'from the signal to the end of the cell: median {median(seconds):.2f} s, '
         f'largest {max(seconds):.2f} s of {len(seconds)} runs\n'
@@ -72,33 +74,28 @@ def stopping_time() -> float:
     """Time [s] that one run of the cell takes to end after SIGINT.
 
     Raises:
-        RunError: it did not get as far as tracking, or its bag is not finished.
+        RunError: the run did not reach tracking, or its bag is not finished.
     """
     with tempfile.TemporaryDirectory(prefix='push_stopping_') as name:
         folder = Path(name)
-        command = [
-            sys.executable,
-            '-m',
-            'push_bringup.commands.cell',
-            '--controller',
-            'analytical',
-        ]
+        module = ('-m', 'push_bringup.commands.cell')
+        command = [sys.executable, *module, '--controller', 'analytical']
         with subprocess.Popen([*command, '-o', name], stderr=subprocess.DEVNULL) as cell:
             try:
                 _wait_until_tracking(folder, cell)
-                asked = time.monotonic()
+                interrupted = time.monotonic()
                 cell.send_signal(signal.SIGINT)
                 cell.wait()
-                seconds = time.monotonic() - asked
+                seconds = time.monotonic() - interrupted
             finally:
                 cell.kill()
         if not list(folder.glob('*/metadata.yaml')):
-            raise RunError('a cell that was interrupted left a bag that is not finished')
+            raise RunError('an interrupted cell left an unfinished bag')
     return seconds
 
 
 def is_tracking(folder: Path) -> bool:
-    """Whether the one run in a folder tracks its reference, as far as recorded."""
+    """Whether the recording of the run in a folder has reached tracking."""
     try:
         (bag,) = folder.glob('*/*.mcap')
         modes = read_run(bag).state('mode')
@@ -112,7 +109,7 @@ def _wait_until_tracking(folder: Path, cell: 'subprocess.Popen[bytes]') -> None:
     while not is_tracking(folder):
         if cell.poll() is not None or time.monotonic() > end:
             raise RunError(f'the cell did not track within {READY_TIMEOUT:g} s; does `cell` run?')
-        time.sleep(LOOKING_PERIOD)
+        time.sleep(POLL_PERIOD)
 
 
 if __name__ == '__main__':

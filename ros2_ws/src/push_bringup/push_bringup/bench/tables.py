@@ -1,4 +1,4 @@
-"""What the benchmarks found as Markdown tables, from the object that `--json` prints."""
+"""Markdown tables of the benchmarks, made from the object that `--json` prints."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
@@ -11,7 +11,7 @@ PAPER_KEYS = ('median_mm', 'truth_median_mm', 'spread_mm', 'paper_mm')
 
 
 def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A table of cells as Markdown, which ends its last line."""
+    """A Markdown table of heads and rows of cells."""
     lines = [_line(heads), '|' + '---|' * len(heads), *map(_line, rows)]
     return '\n'.join(lines) + '\n'
 
@@ -163,7 +163,7 @@ TABLES: Mapping[str, Callable[[Found], str]] = {
     'realtime': real_time_rows,
     'model': library_rows,
 }
-"""Word after `bench`, to the table of what it found."""
+"""Word after `bench`, to the table of its JSON object."""
 
 
 def experiment_name(row: Mapping[str, Any]) -> str:

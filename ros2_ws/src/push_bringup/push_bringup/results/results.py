@@ -12,7 +12,7 @@ from typing import Any
 
 from push_core.common import InputError, Parser, RunError, run_command, write_atomically
 
-from push_bringup.bench import check_positive
+from push_bringup.bench import BENCHES, check_positive
 from push_bringup.results.documents import document_paths, quoted, results_page
 from push_bringup.results.results_file import provenance, read_results, write_results
 from push_bringup.results.sections import SECTIONS, Section
@@ -118,7 +118,7 @@ def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]
     Raises:
         RunError: it printed no result.
     """
-    bench = importlib.import_module(f'push_bringup.bench.{section.bench}')
+    bench = importlib.import_module(BENCHES[section.bench][0])
     options = options_of(section, arguments)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):

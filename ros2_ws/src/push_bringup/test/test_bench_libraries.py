@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_bringup.bench import model as bench_model
-from push_bringup.rivals.model_rivals import fit_gpytorch, fit_ours, fit_scikit_learn
+from push_bringup.bench import libraries
+from push_bringup.comparison.gp_libraries import fit_gpytorch, fit_ours, fit_scikit_learn
 from push_core.data.push_csv import write_pushes
 from push_core.data.push_set import PushSet
 from push_core.physics.motion_cone import MotionCone
@@ -38,9 +38,9 @@ def test_the_comparison_names_what_it_measured(
     pushes: PushSet, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch
 ) -> None:
     write_pushes(tmp_path / 'pushes.csv', pushes)
-    monkeypatch.delitem(bench_model.RIVALS, 'scikit-learn')
-    monkeypatch.setitem(bench_model.RIVALS, 'GPyTorch', ('no_such_library', fit_gpytorch))
-    assert bench_model.main([str(tmp_path / 'pushes.csv'), '--points', '40', '--json']) == 0
+    monkeypatch.delitem(libraries.LIBRARIES, 'scikit-learn')
+    monkeypatch.setitem(libraries.LIBRARIES, 'GPyTorch', ('no_such_library', fit_gpytorch))
+    assert libraries.main([str(tmp_path / 'pushes.csv'), '--points', '40', '--json']) == 0
     shown = capsys.readouterr()
     told = json.loads(shown.out)
     assert told['points'] == 40
@@ -55,5 +55,5 @@ def test_more_points_than_pushes_is_one_line_and_status_2(
     pushes: PushSet, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write_pushes(tmp_path / 'pushes.csv', pushes)
-    assert bench_model.main([str(tmp_path / 'pushes.csv'), '--points', '60']) == 2
+    assert libraries.main([str(tmp_path / 'pushes.csv'), '--points', '60']) == 2
     assert 'cannot train on 60 of 60 pushes' in capsys.readouterr().err

@@ -1,8 +1,8 @@
-"""The same quadratic program by several solvers: update the numbers, solve, give the variables.
+"""The same QP by several solvers: update the numbers, solve, return the variables.
 
-Each is fed as its documentation advises for a sequence of programs of one sparsity. The program is
-that of our set-up, in its units; `OSQP as installed` gets it in SI units, as it is written down.
-Those of the extra `bench` are imported when they are made.
+Each is used as its documentation advises for a sequence of QPs of one sparsity. The QP is that of
+the controller, in its units; `OSQP as installed` gets it in SI units. Solvers of the extra `bench`
+are imported when they are constructed.
 """
 
 from collections.abc import Callable
@@ -17,10 +17,10 @@ from scipy.linalg import solve_triangular
 
 
 class Solver(Protocol):
-    """Solves a sequence of programs that differ in their numbers alone."""
+    """Solves a sequence of QPs that differ only in their numbers."""
 
     def solve(self, problem: Problem) -> tuple[Array, int]:
-        """Variables (n,) in the problem's units, and the iterations that it took."""
+        """Variables (n,) in the problem's units, and the number of iterations."""
 
 
 class Osqp:
@@ -43,12 +43,12 @@ class Osqp:
 
 
 def ours(first: Problem) -> Osqp:
-    """Our set-up."""
+    """OSQP with the settings of the controller."""
     return Osqp(first, **{key: OSQP_SETTINGS[key] for key in OSQP_SETTINGS if key != 'verbose'})
 
 
 def exact(first: Problem) -> Osqp:
-    """What the others are held to: 1e-9, polished, however long it takes."""
+    """The reference for the others: tolerance 1e-9, polished, without a limit of time."""
     return Osqp(first, eps_abs=1e-9, eps_rel=1e-9, max_iter=200_000, polishing=True, scaling=0)
 
 
@@ -64,7 +64,7 @@ class InstalledWarm:
 
 
 class InstalledCold:
-    """OSQP with its defaults, in SI units, set up anew for each program."""
+    """OSQP with its defaults, in SI units, set up again for each QP."""
 
     def __init__(self, _first: Problem) -> None:
         pass
@@ -75,7 +75,7 @@ class InstalledCold:
 
 
 class Daqp:
-    """DAQP, an active-set method, on the dense program without states."""
+    """DAQP, an active-set method, on the condensed QP over the inputs."""
 
     def __init__(self, first: Problem) -> None:
         import daqp  # noqa: PLC0415
@@ -172,7 +172,7 @@ IN_SI_UNITS = ('OSQP as installed, warm', 'OSQP as installed, cold')
 
 
 class _Split:
-    """Equations and inequalities apart; which is which never changes."""
+    """Splits the constraints into equations and inequalities; the split never changes."""
 
     def __init__(self, first: Problem) -> None:
         self._equations = _is_equation(first)
@@ -195,7 +195,7 @@ def _is_equation(problem: Problem) -> Array:
 
 
 def _condensed(problem: Problem) -> tuple[Array, ...]:
-    """The program over the inputs alone.
+    """The condensed QP, over the inputs only.
 
     Returns:
         Hessian, gradient, rows, lower and upper bounds; then offset and effect of the states

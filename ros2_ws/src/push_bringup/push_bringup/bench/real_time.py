@@ -1,4 +1,4 @@
-"""`bench realtime`: the paper's experiments by the clock, beside the same ones in process."""
+"""`bench realtime`: the paper's experiments in real time, compared with the same in process."""
 
 import argparse
 import json
@@ -18,9 +18,9 @@ from push_bringup.setup import code_key, model_for
 
 LAPS_FILE = 'in_process.jsonl'
 EPILOG = """Example: bench realtime --runs 3 --controllers gp
-Each run is one of `cell`, about as long as its lap: 4 minutes for the five rows. Nothing else
-should run meanwhile. Runs of the same code that are in the folder are not repeated, so that an
-interrupted benchmark goes on.
+Each run is a run of `cell` and takes as long as its lap: 4 minutes for the five rows. Nothing
+else should run meanwhile. Runs of the same code that are in the folder are not repeated, so that
+an interrupted benchmark goes on.
 Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
 
@@ -32,7 +32,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser("Pushes the paper's rows in real time and in process.", EPILOG)
+    described = Parser("Pushes the paper's experiments in real time and in process.", EPILOG)
     described.prog = 'bench realtime'
     described.add_argument('--runs', type=int, default=3, help='of each row (default 3)')
     add_controllers(described)
@@ -48,7 +48,7 @@ def parser() -> Parser:
 
 
 def work(arguments: argparse.Namespace) -> int:
-    """Pushes all rows both ways and prints them.
+    """Pushes every experiment in both ways and prints the rows.
 
     Raises:
         InputError: a number is out of range, or the folder cannot be used.
@@ -77,7 +77,7 @@ def work(arguments: argparse.Namespace) -> int:
 def _in_process(
     cases: Sequence[tuple[Experiment, str]], runs: int, store: LapStore
 ) -> list[float]:
-    """Mean errors [mm] of all runs, one process at a time."""
+    """Mean errors [mm] of all runs in process, one at a time."""
     jobs = [
         LapJob(experiment, controller, model_for(controller), 'irb120', seed)
         for experiment, controller in cases
@@ -89,7 +89,7 @@ def _in_process(
 def _real_time(
     cases: Sequence[tuple[Experiment, str]], runs: int, folder: Path
 ) -> Iterator[dict[str, Any]]:
-    """Scores of all runs by the clock."""
+    """Scores of all runs in real time."""
     each = [(*case, seed) for case in cases for seed in range(runs)]
     for experiment, controller, seed in tqdm(each, 'real time', unit=' runs', disable=None):
         name = f'{experiment.track}_{1e3 * experiment.speed:.0f}_{experiment.perturbation}'
@@ -98,7 +98,7 @@ def _real_time(
 
 
 def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> dict[str, Any]:
-    """Score of one run of `cell` into a folder, or of the one that is there."""
+    """Score of a run of `cell` into a folder; one that is there already is not repeated."""
     if not list(folder.glob('*/score.json')):
         command = [
             *(sys.executable, '-m', 'push_bringup.commands.cell', '--mode', 'realtime'),
@@ -109,7 +109,7 @@ def _run(experiment: Experiment, controller: str, seed: int, folder: Path) -> di
         subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
     scores = list(folder.glob('*/score.json'))
     if not scores:
-        raise RunError(f'a run left no score in {folder}; what it said stands above')
+        raise RunError(f'a run left no score in {folder}; see its output above')
     score: dict[str, Any] = json.loads(scores[0].read_text(encoding='utf-8'))
     return score
 

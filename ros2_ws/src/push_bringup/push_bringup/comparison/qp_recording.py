@@ -1,4 +1,4 @@
-"""The quadratic programs of a lap with kicks, tick by tick."""
+"""Records the QPs of a lap with kicks, tick by tick."""
 
 from pathlib import Path
 
@@ -21,18 +21,18 @@ KICKS = (
 )
 
 
-def recorded(controller: str, model: str, seed: int) -> list[tuple[Problem, ...]]:
-    """What the controller solved in each tick of the 8-track at 80 mm/s.
+def recorded_problems(controller: str, model: str, seed: int) -> list[tuple[Problem, ...]]:
+    """The QPs that the controller solved in each tick of the 8-track at 80 mm/s.
 
     Args:
-        controller: gp or analytical.
+        controller: its name.
         model: path of the model file, or 'analytical'.
         seed: of the plant's noise.
     """
     request = lap_request(controller, model, seed)
     parameters = resolved(request, installed_config('cell.yaml'), Path('unused'), Path('unused'))
-    known = model_named(model, parameters.gp.slider)
-    cell = InProcessCell(parameters, known, planned(parameters.mpc))
+    model_of_object = model_named(model, parameters.gp.slider)
+    cell = InProcessCell(parameters, model_of_object, planned(parameters.mpc))
     problems: list[tuple[Problem, ...]] = []
     with tqdm(total=cell.controller.plan.time.size, desc='recording', disable=None) as bar:
 
@@ -50,7 +50,7 @@ def recorded(controller: str, model: str, seed: int) -> list[tuple[Problem, ...]
 
 
 def lap_request(controller: str, model: str, seed: int) -> Request:
-    """The 8-track at 80 mm/s with a controller, a model and a seed."""
+    """A run of the 8-track at 80 mm/s in process."""
     return Request(
         track='eight',
         speed=0.08,

@@ -1,4 +1,4 @@
-"""`ros2 run push_bringup bench model`: our Gaussian processes beside two public libraries'."""
+"""`bench model`: our Gaussian processes compared with those of two public libraries."""
 
 import argparse
 import importlib.util
@@ -18,9 +18,9 @@ from tqdm import tqdm
 
 from push_bringup.bench.options import print_found
 from push_bringup.bench.rows import LibraryRow
-from push_bringup.rivals import Fitted, fit_gpytorch, fit_ours, fit_scikit_learn
+from push_bringup.comparison import LibraryFit, fit_gpytorch, fit_ours, fit_scikit_learn
 
-RIVALS: dict[str, tuple[str, Callable[[PushSet], Fitted]]] = {
+LIBRARIES: dict[str, tuple[str, Callable[[PushSet], LibraryFit]]] = {
     'push_gp': ('push_gp', fit_ours),
     'scikit-learn': ('sklearn', fit_scikit_learn),
     'GPyTorch': ('gpytorch', fit_gpytorch),
@@ -28,8 +28,8 @@ RIVALS: dict[str, tuple[str, Callable[[PushSet], Fitted]]] = {
 HORIZON = 35
 REPEATS = 30
 HELD_OUT = 500
-EPILOG = """Each runs in a process of its own, on one thread. 'make setup EXTRA=bench' installs
-the libraries; what is not there is left out. The JSON object holds `rivals`.
+EPILOG = """Each library runs in its own process, on one thread. 'make setup EXTRA=bench' installs
+them; those that are not installed are left out. The JSON object holds `rivals`.
 """
 
 
@@ -50,7 +50,7 @@ def parser() -> Parser:
 
 
 def work(arguments: argparse.Namespace) -> None:
-    """Runs all rivals that are there and prints what they reached.
+    """Fits with every installed library and prints the comparison.
 
     Raises:
         InputError: the file or the number of points is wrong.
@@ -69,35 +69,35 @@ def work(arguments: argparse.Namespace) -> None:
 
 
 def _rows(training: PushSet, rest: PushSet) -> Iterator[LibraryRow]:
-    fresh = multiprocessing.get_context('spawn')
-    for name in tqdm(RIVALS, desc='comparing', disable=None):
-        if importlib.util.find_spec(RIVALS[name][0]) is None:
+    spawn = multiprocessing.get_context('spawn')
+    for name in tqdm(LIBRARIES, desc='comparing', disable=None):
+        if importlib.util.find_spec(LIBRARIES[name][0]) is None:
             sys.stderr.write(f"{name} is not installed: 'make setup EXTRA=bench' does it\n")
             continue
-        ours, theirs = fresh.Pipe(duplex=False)
-        process = fresh.Process(target=_run, args=(name, training, rest, theirs))
+        receiver, sender = spawn.Pipe(duplex=False)
+        process = spawn.Process(target=_run, args=(name, training, rest, sender))
         process.start()
-        theirs.close()
+        sender.close()
         try:
-            yield ours.recv()
+            yield receiver.recv()
         except EOFError:
             raise RunError(f'{name} ended without a result; see above') from None
         finally:
             process.join()
 
 
-def _run(name: str, training: PushSet, rest: PushSet, results: object) -> None:
-    """In the rival's own process."""
-    module, fit = RIVALS[name]
+def _run(name: str, training: PushSet, rest: PushSet, sender: object) -> None:
+    """Fits and measures one library, in a process of its own."""
+    module, fit = LIBRARIES[name]
     importlib.import_module(module)
-    # what a library imports and compiles at its first fit is not the fit's
+    # the first fit also imports and compiles
     fit(training.take(np.arange(min(10, len(training)))))
     before, started = _peak_mb(), time.process_time()
     fitted = fit(training)
     seconds, memory = time.process_time() - started, _peak_mb() - before
     queries = rest.inputs[np.arange(HORIZON) % len(rest)]
     predicted, _ = fitted.predict(rest.inputs)
-    results.send(  # type: ignore[attr-defined]
+    sender.send(  # type: ignore[attr-defined]
         LibraryRow(
             name,
             seconds,
@@ -109,7 +109,7 @@ def _run(name: str, training: PushSet, rest: PushSet, results: object) -> None:
     )
 
 
-def _milliseconds(fitted: Fitted, queries: np.ndarray) -> float:
+def _milliseconds(fitted: LibraryFit, queries: np.ndarray) -> float:
     durations = []
     for _ in range(REPEATS):
         started = time.perf_counter()

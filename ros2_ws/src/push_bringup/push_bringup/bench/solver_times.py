@@ -1,4 +1,4 @@
-"""`ros2 run push_bringup bench timing`: the controller's quadratic programs, by every solver."""
+"""`bench timing`: the controller's QPs by every solver."""
 
 import argparse
 import sys
@@ -15,16 +15,16 @@ from tqdm import tqdm
 
 from push_bringup.bench.options import add_controller, print_found
 from push_bringup.bench.rows import SolverRow
-from push_bringup.rivals import IN_SI_UNITS, SOLVERS, Solver, exact, recorded
+from push_bringup.comparison import IN_SI_UNITS, SOLVERS, Solver, exact, recorded_problems
 from push_bringup.setup import model_for
 
 Tick = tuple[Problem, ...]
-SPEED_UNIT = 1e-2  # [m/s]; of every input in our set-up, of forces by the speed they make
-EPILOG = """The programs are recorded from one lap of the 8-track at 80 mm/s with a kick every 4 s.
-The Family of Modes (analytical) has three in each tick, whose times add up. Times are CPU time of
-the one thread, for putting the numbers in and solving; the first program of each, which sets a
-solver up, is left out. The error is that of the first input against OSQP at 1e-9.
-What is not installed is named: `make setup EXTRA=bench` installs all.
+SPEED_UNIT = 1e-2  # [m/s]; the unit of every input in the QP, for forces that of their motion
+EPILOG = """The QPs are recorded from one lap of the 8-track at 80 mm/s with a kick every 4 s. The
+Family of Modes (analytical) solves three in each tick; their times add up. Times are CPU time of
+one thread for update and solve, without the first QP, which sets the solver up. The error is that
+of the first input against OSQP with a tolerance of 1e-9.
+`make setup EXTRA=bench` installs all solvers; missing ones are named.
 """
 
 
@@ -35,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser('Solves the quadratic programs of a lap by every solver.', EPILOG)
+    described = Parser('Solves the QPs of a lap by every solver.', EPILOG)
     described.prog = 'bench timing'
     add_controller(described)
     described.add_argument('--seed', type=int, default=0, help="of the plant's noise (default 0)")
@@ -51,7 +51,7 @@ def work(arguments: argparse.Namespace) -> int:
         InputError: the model cannot be read.
     """
     model = model_for(arguments.controller, arguments.model)
-    ticks = recorded(arguments.controller, model, arguments.seed)
+    ticks = recorded_problems(arguments.controller, model, arguments.seed)
     rows = list(_rows(ticks))
     found = {
         'controller': arguments.controller,
@@ -60,16 +60,16 @@ def work(arguments: argparse.Namespace) -> int:
     }
     print_found(arguments, 'timing', found)
     if arguments.html:
-        # plotly takes a second to import: only who asks for a figure waits for it
-        from push_bringup.bench.timing_page import timing_page  # noqa: PLC0415
+        # plotly takes a second to import: only a page needs it
+        from push_bringup.bench.solver_times_page import solver_times_page  # noqa: PLC0415
 
-        write_atomically(arguments.html, timing_page(rows).encode())
+        write_atomically(arguments.html, solver_times_page(rows).encode())
     return 0
 
 
 @dataclass(frozen=True)
 class _Solved:
-    """One tick: CPU time [s], iterations, and the first inputs of its programs, in SI units."""
+    """One tick: CPU time [s], iterations, and the first inputs of its QPs in SI units."""
 
     seconds: float
     iterations: int
@@ -105,23 +105,23 @@ def _row(
 def _solved(
     name: str, make: Callable[[Problem], Solver], ticks: Sequence[Tick]
 ) -> Iterator[_Solved]:
-    """Solves all ticks, each program of a tick by a solver of its own."""
+    """Solves all ticks, each QP of a tick by its own solver."""
     in_si_units = name in IN_SI_UNITS
     solvers = [make(problem) for problem in ticks[0]]
     for tick in tqdm(ticks, desc=name, unit=' ticks', disable=None):
         given = [problem.in_si_units() if in_si_units else problem for problem in tick]
         started = time.thread_time()
-        answers = [solver.solve(each) for solver, each in zip(solvers, given, strict=True)]
+        solutions = [solver.solve(each) for solver, each in zip(solvers, given, strict=True)]
         seconds = time.thread_time() - started
         inputs = [
-            _first_inputs(problem, found * problem.units[0])
-            for problem, (found, _) in zip(given, answers, strict=True)
+            _first_inputs(problem, variables * problem.units[0])
+            for problem, (variables, _) in zip(given, solutions, strict=True)
         ]
-        yield _Solved(seconds, sum(count for _, count in answers), np.array(inputs))
+        yield _Solved(seconds, sum(count for _, count in solutions), np.array(inputs))
 
 
 def _first_inputs(problem: Problem, variables: Array) -> Array:
-    """Those of the first stage (m,)."""
+    """The inputs of the first stage (m,)."""
     stages = problem.states // NX - 1
     return variables[problem.states : problem.states + (variables.size - problem.states) // stages]
 

@@ -1,6 +1,6 @@
-"""`bench data`: the error of the GP controller over the number of pushes it learned from.
+"""`bench data`: error of the GP controller over the number of training pushes.
 
-The paper's figure: nested random draws of a large set of pushes, and the five of a die.
+As in the paper: nested random draws from a large set of pushes, and the five pushes of a die.
 """
 
 import argparse
@@ -32,14 +32,14 @@ SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 TRACK = Experiment('eight', 0.08)
 COLLECTED = 10_000
 EPILOG = """Example: bench data --points 10 50 200 --draws 10 --html data.html
-Draw k takes its pushes at random with seed k, and is part of every larger draw of that seed.
+Draw k is random with seed k; it is part of every larger draw of that seed.
 Exit status: 0 done, also where laps were not completed, 2 the command was wrong.
 """
 
 
 @dataclass(frozen=True)
-class Choice:
-    """One training set: how many pushes, chosen how, over which mean."""
+class TrainingSet:
+    """A training set: number of pushes, mean function, how they are chosen, number of the draw."""
 
     points: int
     mean: str
@@ -54,10 +54,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser('Pushes the 8-track at 80 mm/s with GPs of more and more pushes.', EPILOG)
+    described = Parser(
+        'Pushes the 8-track at 80 mm/s with GPs of more and more training pushes.', EPILOG
+    )
     described.prog = 'bench data'
     described.add_argument(
-        '--points', type=int, nargs='+', default=list(SIZES), metavar='N', help='sizes'
+        '--points', type=int, nargs='+', default=list(SIZES), metavar='N', help='numbers of pushes'
     )
     described.add_argument('--draws', type=int, default=10, help='of each size (default 10)')
     described.add_argument(
@@ -83,19 +85,19 @@ def work(arguments: argparse.Namespace) -> None:
     check_positive('--draws', arguments.draws)
     store = opened_store(arguments)
     pushes = _pushes(arguments)
-    choices = list(_choices(arguments, len(pushes)))
-    models = _trained(pushes, choices, arguments)
+    sets = list(_training_sets(arguments, len(pushes)))
+    models = _trained(pushes, sets, arguments)
     jobs = [LapJob(TRACK, 'gp', str(model), arguments.profile, 0) for model in models]
     jobs.append(LapJob(TRACK, 'analytical', ANALYTICAL, arguments.profile, 0))
     *laps, analytical = push_all(jobs, store, arguments.jobs)
-    points = _points(choices, laps)
+    rows = _rows(sets, laps)
     if arguments.html is not None:
-        # plotly takes a second to import: only who asks for a page waits for it
-        from push_bringup.bench.data_page import data_page  # noqa: PLC0415
+        # plotly takes a second to import: only a page needs it
+        from push_bringup.bench.training_size_page import training_size_page  # noqa: PLC0415
 
-        write_atomically(arguments.html, data_page(points, analytical).encode())
+        write_atomically(arguments.html, training_size_page(rows, analytical).encode())
     found = {
-        'points': [point.as_json() for point in points],
+        'points': [row.as_json() for row in rows],
         'analytical': {
             'completed': analytical.completed,
             'stop_reason': analytical.stop_reason,
@@ -111,27 +113,27 @@ def _pushes(arguments: argparse.Namespace) -> PushSet:
     return collect_pushes(COLLECTED, 0, arguments.profile, jobs=arguments.jobs)
 
 
-def _choices(arguments: argparse.Namespace, available: int) -> Iterator[Choice]:
+def _training_sets(arguments: argparse.Namespace, available: int) -> Iterator[TrainingSet]:
     for points in arguments.points:
         if not 1 <= points <= available:
             raise InputError(f'--points {points}: there are {available} pushes')
     for mean in arguments.mean:
-        yield Choice(5, mean, 'die', 0)
+        yield TrainingSet(5, mean, 'die', 0)
         for points in arguments.points:
             for draw in range(arguments.draws):
-                yield Choice(points, mean, 'random', draw)
+                yield TrainingSet(points, mean, 'random', draw)
 
 
 def _trained(
-    pushes: PushSet, choices: Sequence[Choice], arguments: argparse.Namespace
+    pushes: PushSet, sets: Sequence[TrainingSet], arguments: argparse.Namespace
 ) -> list[Path]:
-    """The model files of the choices; the same code trains each of them once."""
+    """The model file of each training set; the same code trains each once."""
     folder = arguments.models / f'{pushes.sha256()[:12]}_{code_key(MODEL_SOURCES)[:12]}'
     folder.mkdir(parents=True, exist_ok=True)
-    files = [folder / f'{c.choice}_{c.points}_{c.mean}_{c.draw}.npz' for c in choices]
+    files = [folder / f'{s.choice}_{s.points}_{s.mean}_{s.draw}.npz' for s in sets]
     work = [
-        (file, pushes.take(chosen_rows(pushes, choice)), choice.mean)
-        for file, choice in zip(files, choices, strict=True)
+        (file, pushes.take(chosen_rows(pushes, each)), each.mean)
+        for file, each in zip(files, sets, strict=True)
         if not file.is_file()
     ]
     if work:
@@ -146,18 +148,18 @@ def _train(work: tuple[Path, PushSet, str]) -> None:
     save_model(file, train(pushes, mean))
 
 
-def chosen_rows(pushes: PushSet, choice: Choice) -> np.ndarray:
-    """Row numbers of the pushes that a choice takes."""
-    if choice.choice == 'die':
+def chosen_rows(pushes: PushSet, training_set: TrainingSet) -> np.ndarray:
+    """Row numbers of the pushes in a training set."""
+    if training_set.choice == 'die':
         return die_rows(pushes)
-    return nested_rows(pushes, choice.points, choice.draw)
+    return nested_rows(pushes, training_set.points, training_set.draw)
 
 
-def _points(choices: Sequence[Choice], laps: Sequence[Lap]) -> list[SizeRow]:
+def _rows(sets: Sequence[TrainingSet], laps: Sequence[Lap]) -> list[SizeRow]:
     groups: dict[tuple[int, str, str], list[Lap]] = {}
-    for choice, lap in zip(choices, laps, strict=True):
-        groups.setdefault((choice.points, choice.mean, choice.choice), []).append(lap)
-    return [SizeRow(*which, tuple(group)) for which, group in groups.items()]
+    for each, lap in zip(sets, laps, strict=True):
+        groups.setdefault((each.points, each.mean, each.choice), []).append(lap)
+    return [SizeRow(*size, tuple(group)) for size, group in groups.items()]
 
 
 if __name__ == '__main__':

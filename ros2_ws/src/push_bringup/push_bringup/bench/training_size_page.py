@@ -13,12 +13,12 @@ from push_bringup.experiment import Lap
 HEIGHT = 760
 
 
-def data_page(points: Sequence[SizeRow], analytical: Lap) -> str:
-    """The page; the analytical controller's error is a line across."""
+def training_size_page(rows: Sequence[SizeRow], analytical: Lap) -> str:
+    """The page; a horizontal line is the analytical controller's error."""
     figure = make_subplots(2, 1, shared_xaxes=True, row_heights=[0.7, 0.3], vertical_spacing=0.06)
-    lines = list(dict.fromkeys((point.mean, point.choice) for point in points))
+    lines = list(dict.fromkeys((row.mean, row.choice) for row in rows))
     for number, (mean, choice) in enumerate(lines):
-        chosen = [point for point in points if (point.mean, point.choice) == (mean, choice)]
+        chosen = [row for row in rows if (row.mean, row.choice) == (mean, choice)]
         _draw(figure, chosen, f'{mean} mean, {choice}', RUN_COLOURS[number % len(RUN_COLOURS)])
     across = {'color': INK, 'dash': 'dash', 'width': 1.5}
     figure.add_hline(
@@ -32,9 +32,9 @@ def data_page(points: Sequence[SizeRow], analytical: Lap) -> str:
     return page('Error over training size', [section('8-track at 80 mm/s', drawn(figure))])
 
 
-def _draw(figure: go.Figure, points: Sequence[SizeRow], name: str, colour: str) -> None:
+def _draw(figure: go.Figure, rows: Sequence[SizeRow], name: str, colour: str) -> None:
     style = {'mode': 'lines+markers', 'line': {'color': colour}, 'name': name}
-    known = [(point.points, point.quartiles) for point in points if point.quartiles is not None]
+    known = [(row.points, row.quartiles) for row in rows if row.quartiles is not None]
     bars = {
         'symmetric': False,
         'array': [high - middle for _, (_, middle, high) in known],
@@ -43,8 +43,8 @@ def _draw(figure: go.Figure, points: Sequence[SizeRow], name: str, colour: str) 
     sizes, median = [size for size, _ in known], [middle for _, (_, middle, _) in known]
     figure.add_trace(go.Scatter(x=sizes, y=median, error_y=bars, **style), row=1, col=1)
     share = go.Scatter(
-        x=[point.points for point in points],
-        y=[100.0 * point.completed / len(point.laps) for point in points],
+        x=[row.points for row in rows],
+        y=[100.0 * row.completed / len(row.laps) for row in rows],
         showlegend=False,
         **style,
     )

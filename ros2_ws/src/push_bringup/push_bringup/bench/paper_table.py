@@ -1,4 +1,4 @@
-"""`bench table`: the paper's experiments beside the paper's numbers."""
+"""`bench table`: the paper's experiments, compared with the paper's figures."""
 
 import argparse
 import sys
@@ -22,7 +22,7 @@ from push_bringup.experiment import PAPER_MM, LapJob, push_all
 from push_bringup.setup import model_for
 
 EPILOG = """Example: bench table --profile irb120 ideal --seeds 5 --html table.html
-The laps are pushed in process, with all that is random drawn from seeds 0, 1, 2, …
+The laps are pushed in process; everything random is drawn from seeds 0, 1, 2, …
 Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
 
@@ -34,7 +34,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def parser() -> Parser:
     """The command line."""
-    described = Parser("Pushes the rows of the paper's table with both controllers.", EPILOG)
+    described = Parser("Pushes the experiments of the paper's table with all controllers.", EPILOG)
     described.prog = 'bench table'
     described.add_argument('--seeds', type=int, default=5, help='laps of each row (default 5)')
     described.add_argument(
@@ -71,10 +71,10 @@ def work(arguments: argparse.Namespace) -> int:
     laps = iter(push_all(jobs, store, arguments.jobs))
     rows = [PaperRow(*case, tuple(next(laps) for _ in range(arguments.seeds))) for case in cases]
     if arguments.html is not None:
-        # plotly takes a second to import: only who asks for a page waits for it
-        from push_bringup.bench.table_page import table_page  # noqa: PLC0415
+        # plotly takes a second to import: only a page needs it
+        from push_bringup.bench.paper_page import paper_page  # noqa: PLC0415
 
-        write_atomically(arguments.html, table_page(rows).encode())
+        write_atomically(arguments.html, paper_page(rows).encode())
     print_found(arguments, 'table', {'rows': [row.as_json() for row in rows]})
     return 0 if all(row.completed == len(row.laps) for row in rows) else 1
 

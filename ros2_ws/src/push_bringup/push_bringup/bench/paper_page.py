@@ -1,4 +1,4 @@
-"""`bench table --html`: the rows, and their laps drawn as in the paper's figures."""
+"""`bench table --html`: the rows and drawings of their laps."""
 
 from collections.abc import Sequence
 from html import escape
@@ -16,12 +16,12 @@ HEADS = (
     *('track', 'speed', 'perturbation', 'controller', 'profile', 'laps'),
     *('median', 'truth', 'paper'),
 )
-TALL = 380
+PANEL_HEIGHT = 380
 COLUMNS = tuple(CONTROLLERS)
 
 
-def table_page(rows: Sequence[PaperRow]) -> str:
-    """The page; `rows` as `bench table` made them."""
+def paper_page(rows: Sequence[PaperRow]) -> str:
+    """The page."""
     profiles = list(dict.fromkeys(row.profile for row in rows))
     figures = [
         section(f'The laps, profile {profile}', _figure([r for r in rows if r.profile == profile]))
@@ -52,7 +52,7 @@ def _row(row: PaperRow) -> str:
 
 
 def _figure(rows: Sequence[PaperRow]) -> str:
-    """One panel a row: reference, and the path of every seed."""
+    """One panel per row: reference, and the path of every seed."""
     experiments = list(dict.fromkeys(row.experiment for row in rows))
     titles = [_panel_title(row) for experiment in experiments for row in _pair(rows, experiment)]
     figure = make_subplots(
@@ -61,13 +61,13 @@ def _figure(rows: Sequence[PaperRow]) -> str:
     for line, experiment in enumerate(experiments, start=1):
         for column, row in enumerate(_pair(rows, experiment), start=1):
             _draw(figure, row, line, column)
-    styled(figure, TALL * len(experiments), showlegend=False)
+    styled(figure, PANEL_HEIGHT * len(experiments), showlegend=False)
     return drawn(figure)
 
 
 def _pair(rows: Sequence[PaperRow], experiment: object) -> list[PaperRow]:
-    found = {row.controller: row for row in rows if row.experiment == experiment}
-    return [found[name] for name in COLUMNS if name in found]
+    by_name = {row.controller: row for row in rows if row.experiment == experiment}
+    return [by_name[name] for name in COLUMNS if name in by_name]
 
 
 def _panel_title(row: PaperRow) -> str:

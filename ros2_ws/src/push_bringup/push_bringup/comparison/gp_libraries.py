@@ -1,7 +1,7 @@
-"""The same regression by three libraries: ours, scikit-learn's and GPyTorch's.
+"""The same regression by three libraries: ours, scikit-learn and GPyTorch.
 
-Each fits one Gaussian process an output with the kernel of the paper, by maximum likelihood, on
-one thread in double precision, and then tells means and Jacobians.
+Each fits one Gaussian process per output with the kernel of the paper, by maximum likelihood, on
+one thread in double precision, and then predicts means and Jacobians.
 """
 
 import warnings
@@ -26,37 +26,37 @@ ITERATIONS = 200
 
 
 @dataclass(frozen=True)
-class Fitted:
-    """A rival's model.
+class LibraryFit:
+    """A model that a library fitted.
 
     Attributes:
         hyperparameters: of dx, dy and dtheta.
-        predict: the model itself.
+        predict: mean and Jacobian of the model.
     """
 
     hyperparameters: Sequence[Hyperparameters]
     predict: Predict
 
     def log_likelihood(self, pushes: PushSet) -> float:
-        """Of the training pushes [nat], all outputs, computed in one way for all rivals."""
+        """Of the training pushes [nat], all outputs, computed by our formula for every library."""
         return sum(
             MarginalLikelihood(pushes.inputs, outputs).with_gradient(each)[0]
             for outputs, each in zip(pushes.displacement.T, self.hyperparameters, strict=True)
         )
 
 
-def fit_ours(pushes: PushSet) -> Fitted:
+def fit_ours(pushes: PushSet) -> LibraryFit:
     """push_gp."""
     model = train(pushes)
-    return Fitted(
+    return LibraryFit(
         [process.hyperparameters for process in model.processes],
         lambda queries: model.evaluate(*queries.T),
     )
 
 
-def fit_scikit_learn(pushes: PushSet) -> Fitted:
-    """scikit-learn; it has no gradients of its means, so central differences tell them."""
-    # an optional extra of the environment, imported where it is asked for
+def fit_scikit_learn(pushes: PushSet) -> LibraryFit:
+    """scikit-learn; the Jacobian is by central differences, as it has no gradients of the mean."""
+    # optional: installed by the extra `bench`
     from sklearn.exceptions import ConvergenceWarning  # noqa: PLC0415
     from sklearn.gaussian_process import GaussianProcessRegressor  # noqa: PLC0415
     from sklearn.gaussian_process.kernels import (  # noqa: PLC0415
@@ -65,20 +65,22 @@ def fit_scikit_learn(pushes: PushSet) -> Fitted:
         WhiteKernel,
     )
 
-    processes, found = [], []
+    processes, hyperparameters = [], []
     for start, scale, outputs in _outputs(pushes):
         kernel = ConstantKernel(start.signal_std**2, (1e-6, 1e3)) * RBF(
             np.array(start.lengthscales) / np.sqrt(2.0), (1e-2, 1e2)
         ) + WhiteKernel(start.noise_std**2, (1e-8, 1.0))
         process = GaussianProcessRegressor(kernel, alpha=0.0)
         with warnings.catch_warnings():
-            # of parameters that end near their bounds, which are as wide as ours
+            # about parameters that end near their bounds, which are as wide as ours
             warnings.simplefilter('ignore', ConvergenceWarning)
             process.fit(_scaled(pushes.inputs), outputs)
         signal, length, noise = np.split(np.exp(process.kernel_.theta), [1, 3])
         lengths = np.sqrt(2.0) * length * [HALF_FACE, 1.0]
         processes.append((process, scale))
-        found.append(_in_si(lengths, np.sqrt(signal[0]) * scale, np.sqrt(noise[0]) * scale))
+        hyperparameters.append(
+            _in_si(lengths, np.sqrt(signal[0]) * scale, np.sqrt(noise[0]) * scale)
+        )
 
     def mean(queries: Array) -> Array:
         parts = [process.predict(_scaled(queries)) * scale for process, scale in processes]
@@ -87,23 +89,23 @@ def fit_scikit_learn(pushes: PushSet) -> Fitted:
     def predict(queries: Array) -> tuple[Array, Array]:
         count = len(queries)
         shifts = np.vstack((np.zeros(2), np.diag(STEPS), -np.diag(STEPS)))
-        told = mean((queries + shifts[:, None]).reshape(-1, 2)).reshape(5, count, 3)
-        jacobian = np.stack((told[1] - told[3], told[2] - told[4]), axis=-1) / (2.0 * STEPS)
-        return told[0], jacobian
+        means = mean((queries + shifts[:, None]).reshape(-1, 2)).reshape(5, count, 3)
+        jacobian = np.stack((means[1] - means[3], means[2] - means[4]), axis=-1) / (2.0 * STEPS)
+        return means[0], jacobian
 
-    return Fitted(found, predict)
+    return LibraryFit(hyperparameters, predict)
 
 
-def fit_gpytorch(pushes: PushSet) -> Fitted:
-    """GPyTorch with exact Cholesky factors and L-BFGS; autograd tells the gradients."""
-    # an optional extra of the environment, imported where it is asked for
+def fit_gpytorch(pushes: PushSet) -> LibraryFit:
+    """GPyTorch with exact Cholesky factors and L-BFGS; gradients by autograd."""
+    # optional: installed by the extra `bench`
     import gpytorch  # noqa: PLC0415
     import torch  # noqa: PLC0415
 
     torch.set_num_threads(1)
     inputs = torch.tensor(_scaled(pushes.inputs), dtype=torch.float64)
     exact = gpytorch.settings.max_cholesky_size(len(pushes) + 1)
-    models, found = [], []
+    models, hyperparameters = [], []
     with exact, gpytorch.settings.fast_computations(False, False, False):
         for start, scale, outputs in _outputs(pushes):
             model = _torch_process(inputs, torch.tensor(outputs), start)
@@ -113,20 +115,22 @@ def fit_gpytorch(pushes: PushSet) -> Fitted:
             lengths = np.sqrt(2.0) * kernel.base_kernel.lengthscale.detach().numpy()[0]
             signal, noise = kernel.outputscale.item() ** 0.5, model.likelihood.noise.item() ** 0.5
             models.append((model, scale))
-            found.append(_in_si(lengths * [HALF_FACE, 1.0], signal * scale, noise * scale))
+            hyperparameters.append(
+                _in_si(lengths * [HALF_FACE, 1.0], signal * scale, noise * scale)
+            )
 
     def predict(queries: Array) -> tuple[Array, Array]:
         mean, jacobian = np.empty((len(queries), 3)), np.empty((len(queries), 3, 2))
         with exact, gpytorch.settings.skip_posterior_variances():
             for column, (model, scale) in enumerate(models):
                 points = torch.tensor(_scaled(queries), requires_grad=True)
-                told = model(points).mean
-                (slope,) = torch.autograd.grad(told.sum(), points)
-                mean[:, column] = scale * told.detach().numpy()
+                values = model(points).mean
+                (slope,) = torch.autograd.grad(values.sum(), points)
+                mean[:, column] = scale * values.detach().numpy()
                 jacobian[:, column] = scale * slope.numpy() / [HALF_FACE, 1.0]
         return mean, jacobian
 
-    return Fitted(found, predict)
+    return LibraryFit(hyperparameters, predict)
 
 
 def _torch_process(inputs: Any, outputs: Any, start: Hyperparameters) -> Any:

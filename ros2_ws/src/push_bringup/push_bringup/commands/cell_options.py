@@ -1,0 +1,133 @@
+"""The command line of `cell`, and the run that it describes."""
+# ruff: noqa: PLC0415  heavy imports are local: the nodes start a second earlier
+
+import argparse
+from pathlib import Path
+
+from push_core.common import InputError, Parser
+from push_core.tracks import TRACKS
+from push_gp.models import ANALYTICAL, read_sealed
+from push_mpc.settings import CONTROLLERS, PRESETS
+from push_node.override_text import parsed_override
+from push_sim.settings import PROFILES
+
+from push_bringup.setup import Request, model_for
+
+EPILOG = """examples:
+  ros2 run push_bringup cell                                   the 8-track at 80 mm/s
+  ros2 run push_bringup cell --track square --speed 0.05 --controller analytical
+  ros2 run push_bringup cell --mode inprocess -p delay_compensation:=false
+  ros2 run push_bringup cell -p mpc_node.weights.contact:=100.0 -o /tmp/runs
+
+The last line printed is the folder of the run: bag, score.json, report.html, logs.
+Exit status: 0 the lap was completed, 1 it was not, 2 the command was wrong, 130 interrupted.
+"""
+
+
+def parser() -> Parser:
+    """The command line."""
+    parser = Parser('Pushes the square along a track, records the run and scores it.', EPILOG)
+    tracks = ', '.join(TRACKS)
+    parser.add_argument('--track', default='eight', help=f'{tracks} or a .csv of x, y [m]')
+    parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
+    parser.add_argument('--controller', choices=tuple(CONTROLLERS), default='gp')
+    parser.add_argument(
+        '--model', type=Path, metavar='FILE', help='for gp; default: 200 simulated pushes'
+    )
+    parser.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
+    parser.add_argument(
+        '--preset',
+        choices=PRESETS,
+        default='tuned',
+        help='of the controller; paper: its literal weights, h and N (default %(default)s)',
+    )
+    parser.add_argument(
+        '--perturb',
+        choices=('none', 'normal', 'tangential'),
+        default='none',
+        help='at the start: object 30 mm off the pusher, or pusher 20 mm along the face',
+    )
+    parser.add_argument('--laps', type=int, default=1, help='rounds of a closed track')
+    parser.add_argument('--seed', type=int, default=0, help='of everything random')
+    parser.add_argument(
+        '--mode',
+        choices=('realtime', 'lockstep', 'inprocess'),
+        default='realtime',
+        help='nodes by the wall clock; nodes in step, repeatable; one process, fastest',
+    )
+    parser.add_argument(
+        '-p',
+        '--param',
+        action='append',
+        default=[],
+        metavar='NAME:=VALUE',
+        help='any parameter of a node, as NAME or NODE.NAME; repeatable',
+    )
+    parser.add_argument(
+        '--params',
+        type=Path,
+        metavar='FILE',
+        help='ROS parameter file that overrides the defaults, such as that of push_sim calibrate',
+    )
+    parser.add_argument('--namespace', default='', help='of the node graph')
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=Path('runs'),
+        metavar='DIR',
+        help='the run gets a new folder in it (default %(default)s)',
+    )
+    return parser
+
+
+def requested(arguments: argparse.Namespace) -> Request:
+    """The run that the arguments describe.
+
+    Raises:
+        InputError: an argument is out of range, or two of them contradict each other.
+    """
+    if arguments.model and not CONTROLLERS[arguments.controller].trained_model:
+        raise InputError(f'--model is not for --controller {arguments.controller}')
+    if not arguments.speed > 0.0:
+        raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
+    overrides = dict(parsed_override(text) for text in arguments.param)
+    return Request(
+        track=arguments.track,
+        speed=arguments.speed,
+        controller=arguments.controller,
+        model=_model(arguments),
+        profile=arguments.profile,
+        perturb=arguments.perturb,
+        laps=arguments.laps,
+        seed=arguments.seed,
+        mode=arguments.mode,
+        output=arguments.output,
+        namespace=_namespace(arguments.namespace),
+        overrides=overrides,
+        preset=arguments.preset,
+        params=arguments.params,
+    )
+
+
+def _namespace(text: str) -> str:
+    """The name without slashes around it; rclpy is imported only to check one that is given."""
+    name = text.strip('/')
+    if name:
+        from rclpy.exceptions import InvalidNamespaceException
+        from rclpy.validate_namespace import validate_namespace
+
+        try:
+            validate_namespace(f'/{name}')
+        except InvalidNamespaceException:
+            raise InputError(f'--namespace {text!r}: takes letters, digits, _ and /') from None
+    return name
+
+
+def _model(arguments: argparse.Namespace) -> str:
+    given = arguments.model and str(arguments.model)
+    model = model_for(arguments.controller, given)
+    if model == ANALYTICAL:
+        return model
+    read_sealed(Path(model))
+    return str(Path(model).resolve())
