@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from push_bag.commands.import_csv import main
 from push_bag.commands.score import main as score
-from push_bag.robot_csv.robot_run import COLUMNS
 from push_bag.run.run_reader import read_run
 from push_bag.score.score import score_run
+from push_core.data.robot_run import COLUMNS
 
 DATA = Path(os.environ.get('PUSH_DATA_DIR') or Path(__file__).resolve().parents[5] / 'shared/data')
 MEASURED = DATA / 'robot_runs' / 'line_50mms_unperturbed.csv'

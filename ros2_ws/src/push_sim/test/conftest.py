@@ -9,14 +9,14 @@ from push_core.common.settings import replaced
 from push_core.data.long_push_csv import COLUMNS as LONG_COLUMNS
 from push_core.data.push_csv import write_pushes
 from push_core.data.push_set import PushSet
+from push_core.data.robot_run import COLUMNS as RUN_COLUMNS
+from push_core.data.robot_run import RobotRun
 from push_core.geometry.frames import Array, rotation
 from push_core.physics.slider import Slider
 from push_sim.collect.collector import Collector
 from push_sim.collect.push_design import PushDesign
 from push_sim.collect.push_sampling import uniform
 from push_sim.measured.replay import replay_long_pushes, replay_windows
-from push_sim.measured.robot_run import COLUMNS as RUN_COLUMNS
-from push_sim.measured.robot_run import RobotRun
 from push_sim.measured.run_windows import INTERVAL, Windows
 from push_sim.measured.tip_replay import modelled_tip
 from push_sim.plant.plant import Plant

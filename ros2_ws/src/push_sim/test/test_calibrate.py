@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from push_core.common.workers import workers
+from push_core.common.workers import worker_pool
 from push_core.physics.slider import Slider
 from push_sim.calibration.calibration import PlantCalibration, calibrate_plant, rounded
 from push_sim.calibration.output import calibration_json, calibration_table, ros_parameter_file
@@ -32,8 +32,8 @@ def folder(measure_artificially, tmp_path_factory: pytest.TempPathFactory) -> Pa
 
 @pytest.fixture(scope='module')
 def found(folder: Path) -> PlantCalibration:
-    with workers(1) as run_in:
-        return calibrate_plant(read_measured_data(folder), START, Slider(), run_in, seed=0)
+    with worker_pool(1) as pool:
+        return calibrate_plant(read_measured_data(folder), START, Slider(), pool.in_order, seed=0)
 
 
 def test_the_parameters_of_a_known_plant_are_found_within_their_uncertainty(found) -> None:

@@ -12,10 +12,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from push_core.common import Parser, run_command
+from push_core.data import read_robot_run
 from push_core.physics import Slider
 
 from push_bag.file import atomic_bag
-from push_bag.robot_csv import messages, read_robot_run, topics
+from push_bag.robot_csv import messages, topics
 
 EPILOG = """
 Columns: t_s, slider_x_m, slider_y_m, slider_theta_rad, pusher_cmd_x_m, pusher_cmd_y_m, pusher_x_m,

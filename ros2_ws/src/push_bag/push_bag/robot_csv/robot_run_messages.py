@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from push_core.data import RobotRun
 from push_core.geometry import yaw_to_quaternion
 from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
@@ -20,7 +22,6 @@ from push_node.stamps import to_stamp
 from rclpy.serialization import serialize_message
 
 from push_bag.file import qos_text
-from push_bag.robot_csv.robot_run import RobotRun
 from push_bag.run import Floats
 
 START_NS = 1_000_000_000  # stamp of the first row
@@ -29,6 +30,7 @@ WRITTEN = (
     *(NOMINAL_TRAJECTORY, CONTROLLER_STATE),
 )
 UNKNOWN = math.nan
+SLOPE_TIME = 0.01  # [s] over which a slope is taken: the rows come unevenly
 
 
 def topics() -> list[tuple[str, str, str]]:
@@ -39,7 +41,7 @@ def topics() -> list[tuple[str, str, str]]:
 def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
     """Topic, bytes and stamp [ns] of every message, in order of time."""
     yield NOMINAL_TRAJECTORY.absolute_name, serialize_message(_reference(run, slider)), START_NS
-    velocity, progress = run.velocity, run.progress
+    velocity, progress = _commanded_velocity(run), _progress(run)
     for row, time in enumerate(run.time.tolist()):
         stamp = START_NS + round(time * 1e9)
         last = row == len(run.time) - 1
@@ -51,6 +53,21 @@ def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
         ):
             message.header.frame_id, message.header.stamp = 'world', to_stamp(stamp)
             yield topic.absolute_name, serialize_message(message), stamp
+
+
+def _commanded_velocity(run: RobotRun) -> Floats:
+    """Slopes (n, 2) [m/s] of the commanded positions."""
+    half = 0.5 * SLOPE_TIME
+    ahead, behind = (
+        np.stack([np.interp(time, run.time, each) for each in run.commanded.T], axis=1)
+        for time in (run.time + half, run.time - half)
+    )
+    return np.asarray((ahead - behind) / SLOPE_TIME)
+
+
+def _progress(run: RobotRun) -> Floats:
+    """Distance (n,) [m] of the object along the x axis; it never decreases."""
+    return np.asarray(np.maximum.accumulate(run.pose[:, 0]))
 
 
 def _pose_message(pose: Floats) -> Any:
@@ -90,10 +107,10 @@ def _reference(run: RobotRun, slider: Slider) -> Any:
     """The reference: the x axis, timed by the object's own progress."""
     count = len(run.time)
     time = np.linspace(0.0, run.time[-1], count)
-    x = np.interp(time, run.time, run.progress)
+    x = np.interp(time, run.time, _progress(run))
     zero = np.zeros(count)
     message = NominalTrajectory(
-        track=run.name,
+        track=Path(run.name).stem,
         controller='robot',
         speed=float((x[-1] - x[0]) / time[-1]),
         side=slider.side,

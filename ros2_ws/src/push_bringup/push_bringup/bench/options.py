@@ -6,17 +6,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from push_core.common import InputError, Parser, check_place, finite, json_text
+from push_core.common import InputError, Parser, check_place, finite, json_text, usable_cores
 from push_mpc.settings import CONTROLLERS
 
 from push_bringup.bench.tables import TABLES
-from push_bringup.experiment import LapStore, cores
+from push_bringup.experiment import LapStore
 
 
 def add_lap_options(parser: Parser, laps: Path) -> None:
     """The options of every benchmark that pushes laps."""
     parser.add_argument(
-        '--jobs', type=int, default=cores(), help='processes (default %(default)s)'
+        '--jobs', type=int, default=usable_cores(), help='processes (default %(default)s)'
     )
     parser.add_argument('--json', action='store_true', help='print one JSON object instead')
     parser.add_argument('--html', type=Path, metavar='FILE', help='also write a page with figures')

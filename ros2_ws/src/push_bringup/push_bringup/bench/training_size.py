@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common import InputError, Parser, run_command, write_atomically
+from push_core.common import InputError, Parser, run_command, worker_pool, write_atomically
 from push_core.data import PushSet, read_pushes
 from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, die_rows, nested_rows, save_model
 from push_gp.training.train import train
@@ -25,7 +25,7 @@ from push_bringup.bench.options import (
     print_found,
 )
 from push_bringup.bench.rows import SizeRow
-from push_bringup.experiment import Experiment, Lap, LapJob, push_all, worker_pool
+from push_bringup.experiment import Experiment, Lap, LapJob, push_all
 from push_bringup.setup import MODEL_SOURCES, code_key
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
@@ -138,13 +138,12 @@ def _trained(
     ]
     if work:
         with worker_pool(arguments.jobs) as pool:
-            done = pool.imap_unordered(_train, work)
+            done = pool.as_done(_train, work)
             list(tqdm(done, 'training', len(work), unit=' models', disable=None))
     return files
 
 
-def _train(work: tuple[Path, PushSet, str]) -> None:
-    file, pushes, mean = work
+def _train(file: Path, pushes: PushSet, mean: str) -> None:
     save_model(file, train(pushes, mean))
 
 

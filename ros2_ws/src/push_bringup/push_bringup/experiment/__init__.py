@@ -1,7 +1,7 @@
 """Laps of an experiment, computed in several processes and kept."""
 
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
-from push_bringup.experiment.lap_pool import LapStore, cores, push_all, worker_pool
+from push_bringup.experiment.lap_pool import LapStore, push_all
 
 __all__ = [
     'PAPER_MM',
@@ -9,8 +9,6 @@ __all__ = [
     'Lap',
     'LapJob',
     'LapStore',
-    'cores',
     'push_all',
     'pushed',
-    'worker_pool',
 ]

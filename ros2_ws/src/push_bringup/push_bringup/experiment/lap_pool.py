@@ -6,15 +6,11 @@ versions and the model; laps of other sources stay in the file unused.
 """
 
 import json
-import multiprocessing
-import os
-import signal
 from collections.abc import Sequence
 from dataclasses import asdict
-from multiprocessing.pool import Pool
 from pathlib import Path
 
-from push_core.common import InputError
+from push_core.common import InputError, worker_pool
 from tqdm import tqdm
 
 from push_bringup.experiment.experiment import Lap, LapJob, pushed
@@ -90,22 +86,10 @@ def _push_missing(left: Sequence[LapJob], total: int, store: LapStore, processes
     with tqdm(total=total, desc='pushing', unit=' laps', disable=None) as bar:
         bar.update(total - len(left))
         with worker_pool(processes) as pool:
-            for number, lap in pool.imap_unordered(_push, list(enumerate(left))):
+            for number, lap in pool.as_done(_push, list(enumerate(left))):
                 store.add(left[number], lap)
                 bar.update()
 
 
-def worker_pool(processes: int) -> Pool:
-    """Processes that share work; Ctrl-C, which reaches all, is left to this one."""
-    context = multiprocessing.get_context('spawn')
-    return context.Pool(processes, signal.signal, (signal.SIGINT, signal.SIG_IGN))
-
-
-def cores() -> int:
-    """How many processes may push at the same time."""
-    return len(os.sched_getaffinity(0))
-
-
-def _push(numbered: tuple[int, LapJob]) -> tuple[int, Lap]:
-    number, job = numbered
+def _push(number: int, job: LapJob) -> tuple[int, Lap]:
     return number, pushed(job)

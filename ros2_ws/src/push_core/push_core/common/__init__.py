@@ -14,7 +14,8 @@ from push_core.common.settings import (
     validate,
 )
 from push_core.common.strict_json import finite, json_text
-from push_core.common.workers import Map, usable_cores, workers
+from push_core.common.text_table import markdown_table, plain_table
+from push_core.common.workers import Map, Workers, usable_cores, worker_pool
 
 __all__ = [
     'Described',
@@ -23,12 +24,15 @@ __all__ = [
     'Parser',
     'PushError',
     'RunError',
+    'Workers',
     'check_place',
     'describe',
     'finite',
     'flatten',
     'json_text',
+    'markdown_table',
     'nested',
+    'plain_table',
     'reject_unknown',
     'replaced',
     'run_command',
@@ -36,6 +40,6 @@ __all__ = [
     'unused_names',
     'usable_cores',
     'validate',
-    'workers',
+    'worker_pool',
     'write_atomically',
 ]

@@ -14,6 +14,7 @@ from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
 from push_core.data.push_csv import read_pushes, write_pushes
 from push_core.data.push_set import HALF_FACE, P_Y_LIMIT, PushSet, check_distance, input_fault
+from push_core.data.robot_run import RobotRun, read_robot_run
 
 __all__ = [
     'FACE_MARGIN',
@@ -26,6 +27,7 @@ __all__ = [
     'EndErrors',
     'LongPushes',
     'PushSet',
+    'RobotRun',
     'accuracy',
     'check_distance',
     'five_of_a_die',
@@ -35,6 +37,7 @@ __all__ = [
     'per_output',
     'read_long_pushes',
     'read_pushes',
+    'read_robot_run',
     'read_table',
     'write_pushes',
 ]

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from push_core.common import Map, replaced
-from push_core.data import LongPushes
+from push_core.data import LongPushes, RobotRun
 from push_core.physics import Slider
 from tqdm import tqdm
 
 from push_sim.fitting import FITTED, PushesToFit, WorldFit, fit_actuator, fit_world
-from push_sim.measured import MeasuredData, ProgressBar, Replay, RobotRun, split_measurements
+from push_sim.measured import MeasuredData, ProgressBar, Replay, split_measurements
 from push_sim.settings import SimSettings
 from push_sim.validation import Validation, compare_with_measurements
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from push_core.common import workers
+from push_core.common import worker_pool
 from push_core.data import PushSet
 from push_core.geometry import Array
 from push_core.physics import Slider
@@ -73,9 +73,9 @@ def collected(collection: Collection, jobs: int) -> Iterator[Array]:
     bar: tqdm[Any]
     with (
         tqdm(desc='collecting', total=collection.pushes, unit=' pushes', disable=None) as bar,
-        workers(jobs) as run_in,
+        worker_pool(jobs) as pool,
     ):
-        for chunk in run_in(_chunk, tasks):
+        for chunk in pool.in_order(_chunk, tasks):
             bar.update(len(chunk))
             yield from chunk
 

@@ -11,7 +11,7 @@ from push_core.common import (
     json_text,
     run_command,
     usable_cores,
-    workers,
+    worker_pool,
     write_atomically,
 )
 from push_core.physics import Slider
@@ -70,8 +70,8 @@ def work(arguments: argparse.Namespace) -> None:
         check_place(arguments.output)
     data, data_hash = read_measured_data(arguments.data), files_hash(arguments.data)
     start, seed = profile(arguments.profile), arguments.seed
-    with workers(arguments.jobs) as run_in:
-        result = calibrate_plant(data, start, Slider(), run_in, seed)
+    with worker_pool(arguments.jobs) as pool:
+        result = calibrate_plant(data, start, Slider(), pool.in_order, seed)
     if arguments.output:
         content = ros_parameter_file(result.parameters, data_hash)
         write_atomically(arguments.output, content.encode())

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common import Parser, check_place, json_text, run_command, usable_cores, workers
+from push_core.common import Parser, check_place, json_text, run_command, usable_cores, worker_pool
 from push_core.physics import Slider
 
 from push_sim.commands.command_checks import check_jobs
@@ -60,9 +60,9 @@ def work(arguments: argparse.Namespace) -> None:
     if arguments.html:
         check_place(arguments.html)
     data = read_measured_data(arguments.data)
-    with workers(arguments.jobs) as run_in:
+    with worker_pool(arguments.jobs) as pool:
         settings = profile(arguments.profile)
-        result = compare_with_measurements(data, settings, Slider(), run_in)
+        result = compare_with_measurements(data, settings, Slider(), pool.in_order)
     figures = {'profile': arguments.profile, **validation_json(result)}
     table = validation_table(figures, arguments.profile)
     if arguments.html:

@@ -3,12 +3,13 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
+from push_core.data import RobotRun
 from push_core.geometry import Array
 from push_core.physics import ActuatorSettings
 from scipy.optimize import least_squares
 
 from push_sim.fitting.bootstrap import bootstrap_deviation
-from push_sim.measured import RobotRun, tip_error
+from push_sim.measured import tip_error
 
 _LARGEST = 0.5
 _SMALLEST = 1e-4

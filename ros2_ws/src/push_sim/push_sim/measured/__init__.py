@@ -10,7 +10,6 @@ from push_sim.measured.measured_data import (
     split_measurements,
 )
 from push_sim.measured.replay import ProgressBar, Replay
-from push_sim.measured.robot_run import RobotRun
 from push_sim.measured.run_windows import Windows, cut_windows
 from push_sim.measured.tip_replay import modelled_tip, rms_coordinate, tip_error
 
@@ -21,7 +20,6 @@ __all__ = [
     'MeasuredData',
     'ProgressBar',
     'Replay',
-    'RobotRun',
     'Windows',
     'cut_windows',
     'files_hash',

@@ -9,9 +9,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from push_core.common import InputError
-from push_core.data import LongPushes, PushSet, read_long_pushes, read_pushes
-
-from push_sim.measured.robot_run import RobotRun, read_robot_run
+from push_core.data import (
+    LongPushes,
+    PushSet,
+    RobotRun,
+    read_long_pushes,
+    read_pushes,
+    read_robot_run,
+)
 
 SHORT_FILES = 'square_4mm_pushes*.csv'
 LONG_FILES = 'square_50mm_pushes*.csv'

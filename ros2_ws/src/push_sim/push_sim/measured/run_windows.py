@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
+from push_core.data import RobotRun
 from push_core.geometry import Array
 
-from push_sim.measured.robot_run import RobotRun
 from push_sim.worlds import COARSE_SUBSTEP
 
 WINDOW = 0.5
@@ -35,9 +35,9 @@ def cut_windows(run: RobotRun) -> Windows:
     points = round(WINDOW / INTERVAL)
     count = int((run.time[-1] + 1e-9) / WINDOW)
     edges = WINDOW * np.arange(count + 1)
-    poses = _interpolated(run.time, run.object_pose, edges)
+    poses = _interpolated(run.time, run.pose, edges)
     times = edges[:-1, None] + INTERVAL * np.arange(points + 1)
-    tip = _interpolated(run.time, run.sensed, times.ravel()).reshape(count, points + 1, 2)
+    tip = _interpolated(run.time, run.tip, times.ravel()).reshape(count, points + 1, 2)
     return Windows(poses[:-1], poses[1:], tip)
 
 

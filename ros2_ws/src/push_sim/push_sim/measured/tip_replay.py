@@ -3,10 +3,9 @@
 import math
 
 import numpy as np
+from push_core.data import RobotRun
 from push_core.geometry import Array
 from push_core.physics import Actuator, ActuatorSettings
-
-from push_sim.measured.robot_run import RobotRun
 
 _PERIOD = 0.002
 
@@ -19,14 +18,14 @@ def modelled_tip(run: RobotRun, settings: ActuatorSettings) -> Array:
     """
     grid = _PERIOD * np.arange(math.ceil(run.time[-1] / _PERIOD) + 1)
     command = np.column_stack([np.interp(grid, run.time, axis) for axis in run.commanded.T])
-    command[0] = run.sensed[0]
-    reached = run.sensed[0] + _travel(np.diff(command, axis=0) / _PERIOD, settings)
+    command[0] = run.tip[0]
+    reached = run.tip[0] + _travel(np.diff(command, axis=0) / _PERIOD, settings)
     return np.column_stack([np.interp(run.time, grid, axis) for axis in reached.T])
 
 
 def tip_error(run: RobotRun, settings: ActuatorSettings) -> Array:
     """Modelled minus sensed tip (m, 2) [m], for the rows in which the tip follows commands."""
-    return (modelled_tip(run, settings) - run.sensed)[: run.following]
+    return (modelled_tip(run, settings) - run.tip)[: run.following]
 
 
 def rms_coordinate(error: Array) -> float:

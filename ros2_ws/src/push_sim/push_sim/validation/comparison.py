@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from push_core.common import Map
-from push_core.data import Accuracy, LongPushes, PushSet, accuracy
+from push_core.data import Accuracy, LongPushes, PushSet, RobotRun, accuracy
 from push_core.geometry import Array
 from push_core.physics import ActuatorSettings, Slider
 from tqdm import tqdm
@@ -13,7 +13,6 @@ from push_sim.measured import (
     MeasuredData,
     ProgressBar,
     Replay,
-    RobotRun,
     Windows,
     cut_windows,
     modelled_tip,

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.data import LongPushes
+from push_core.data import LongPushes, RobotRun
 from push_core.geometry import Array, wrap_angle
 from push_core.physics import ActuatorSettings
 
@@ -13,7 +13,6 @@ from push_sim.measured import (
     LONG_FILES,
     RUN_FILES,
     SHORT_FILES,
-    RobotRun,
     rms_coordinate,
     tip_error,
 )

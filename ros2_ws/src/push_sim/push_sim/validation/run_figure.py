@@ -21,8 +21,7 @@ def run_figure(compared: RunComparison) -> go.Figure:
     run, following = compared.run, compared.run.following
     figure = make_subplots(2, 2, specs=[[{}, {}], [{'colspan': 2}, None]], subplot_titles=_TITLES)
     time, commanded, sensed, tip = (
-        _subsampled(each[:following])
-        for each in (run.time, run.commanded, run.sensed, compared.tip)
+        _subsampled(each[:following]) for each in (run.time, run.commanded, run.tip, compared.tip)
     )
     for points, name, colour in (
         (commanded, 'commanded', _GREY),
@@ -64,7 +63,7 @@ def _path(figure: go.Figure, points: Array, name: str, colour: str) -> None:
 
 def _object(figure: go.Figure, compared: RunComparison) -> None:
     """The measured path, and from the start of each window a line to its simulated end."""
-    x, y = (_subsampled(compared.run.object_pose)[:, :2] * 1e3).astype(np.float32).T
+    x, y = (_subsampled(compared.run.pose)[:, :2] * 1e3).astype(np.float32).T
     measured = go.Scatter(x=x, y=y, mode='lines', name='measured object', line={'color': 'black'})
     figure.add_trace(measured, row=2, col=1)
     starts, ends = compared.windows.start[:, :2] * 1e3, compared.simulated[:, :2] * 1e3

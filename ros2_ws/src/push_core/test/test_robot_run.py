@@ -1,12 +1,11 @@
-"""The reader of robot runs and of a whole folder of measurements."""
+"""The reader of robot runs."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 from push_core.common.errors import InputError
-from push_sim.measured.measured_data import read_measured_data
-from push_sim.measured.robot_run import COLUMNS, read_robot_run
+from push_core.data.robot_run import COLUMNS, read_robot_run
 
 HEADER = ','.join(COLUMNS)
 ROWS = [
@@ -28,7 +27,7 @@ def test_a_run_is_read_with_time_from_zero_and_an_angle_without_jumps(tmp_path: 
     run = read_robot_run(written(tmp_path, rows))
     assert run.time[0] == 0.0
     assert run.time[-1] == pytest.approx(1.49)
-    assert np.abs(np.diff(run.object_pose[:, 2])).max() < 0.1
+    assert np.abs(np.diff(run.pose[:, 2])).max() < 0.1
 
 
 def test_what_follows_a_robot_that_stopped_by_itself_does_not_count(tmp_path: Path) -> None:
@@ -68,15 +67,3 @@ def test_a_run_too_short_or_without_motion_is_refused(tmp_path: Path) -> None:
 def test_a_column_that_is_missing_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match='line 1: column pusher_cmd_x_m is missing'):
         read_robot_run(written(tmp_path, ROWS, HEADER.replace('pusher_cmd_x_m', 'x')))
-
-
-def test_a_folder_says_what_it_lacks_and_an_empty_one_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match='holds none of'):
-        read_measured_data(tmp_path)
-    with pytest.raises(InputError, match='is no folder'):
-        read_measured_data(tmp_path / 'nowhere')
-    (tmp_path / 'robot_runs').mkdir()
-    written(tmp_path / 'robot_runs', ROWS)
-    data = read_measured_data(tmp_path)
-    assert data.missing == ('square_4mm_pushes*.csv', 'square_50mm_pushes*.csv')
-    assert [run.name for run in data.runs] == ['run.csv']
