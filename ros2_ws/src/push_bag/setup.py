@@ -3,7 +3,7 @@ from setuptools import find_packages, setup
 setup(
     name='push_bag',
     version='0.1.0',
-    description='Every run on record: recorder, reader, replay, score and report of MCAP bags.',
+    description='Recorder, reader, replay, score and report of runs in MCAP bags.',
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
     package_data={'': ['py.typed', '*.js']},

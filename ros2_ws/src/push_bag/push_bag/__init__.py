@@ -1,4 +1,4 @@
-"""Every run on record: recorder, reader, replay, score and report of MCAP bags."""
+"""Recorder, reader, replay, score and report of runs in MCAP bags."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""A bag is finished cleanly or stays readable as far as it went."""
+"""A bag is finished, or stays readable up to where it was cut short."""
 
 import resource
 

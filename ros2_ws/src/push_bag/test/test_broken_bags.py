@@ -1,4 +1,4 @@
-"""A bag that is missing, cut short or garbage gives one line, or what is left of it."""
+"""Missing and damaged bags give a one-line error, or the readable part."""
 
 import contextlib
 import random
@@ -27,7 +27,7 @@ def content(perfect):
     ],
     ids=['empty', 'a header only', 'text', 'overwritten'],
 )
-def test_what_is_not_a_bag_is_one_line_and_status_2(
+def test_a_file_that_is_not_a_bag_gives_one_line_and_status_2(
     tmp_path, content, capsys, main, spoil, reason
 ):
     path = tmp_path / 'bad.mcap'
@@ -39,7 +39,7 @@ def test_what_is_not_a_bag_is_one_line_and_status_2(
     assert reason in captured.err
 
 
-def test_a_missing_bag_and_an_empty_folder_are_one_line(tmp_path, capsys):
+def test_a_missing_bag_and_an_empty_folder_give_one_line(tmp_path, capsys):
     assert info.main([str(tmp_path / 'none')]) == 2
     assert 'does not exist' in capsys.readouterr().err
     assert info.main([str(tmp_path)]) == 2
@@ -53,6 +53,15 @@ def test_a_bag_without_its_end_is_read_as_far_as_it_goes(tmp_path, content, caps
     assert 'unfinished' in capsys.readouterr().out
     assert score_command.main([str(path)]) == 0
     assert capsys.readouterr().out.splitlines()[0].split() == ['completed', 'no']
+
+
+def test_an_attachment_of_impossible_length_is_damage(content, tmp_path):
+    at = content.index(b'params.yaml')
+    begin = content.index(b'application/octet-stream', at) + len(b'application/octet-stream')
+    path = tmp_path / 'long.mcap'
+    path.write_bytes(content[:begin] + b'\xff' * 8 + content[begin + 8 :])
+    with pytest.raises(InputError, match='a record is not readable'):
+        list(BagReader(path).records())
 
 
 @pytest.mark.parametrize('spoil', DAMAGES)

@@ -1,4 +1,4 @@
-"""Columns hold what rclpy's own deserializer finds in each message."""
+"""Columns agree with rclpy's deserializer."""
 
 import random
 

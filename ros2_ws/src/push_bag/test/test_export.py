@@ -1,4 +1,4 @@
-"""The run as a table for other programs: what stands in it, and that nothing is rounded."""
+"""Exported tables hold every value of a run, unrounded."""
 
 import numpy as np
 import pytest

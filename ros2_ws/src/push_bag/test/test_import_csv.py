@@ -1,4 +1,4 @@
-"""A run of the real cell becomes a bag like any other."""
+"""A run of the real cell is imported as a bag that can be scored and reported."""
 
 import os
 from pathlib import Path
@@ -28,7 +28,7 @@ def written(tmp_path):
 
 
 def straight(offset):
-    """One second at 50 mm/s along x, the object beside the line; rows come unevenly."""
+    """One second at 50 mm/s along x, the object at an offset; rows at uneven times."""
     time = np.linspace(0.0, 1.0, 501) ** 1.1
     x = 0.05 * time
     zero = np.zeros_like(time)
@@ -36,7 +36,7 @@ def straight(offset):
     return np.stack([time, x, zero + offset, zero, tip, zero + offset, tip, zero + offset], axis=1)
 
 
-def test_what_is_beside_the_line_is_the_score(written, tmp_path):
+def test_the_offset_from_the_line_is_the_score(written, tmp_path):
     assert main([str(written(straight(0.002))), '-o', str(tmp_path / 'run')]) == 0
     found = score_run(tmp_path / 'run')
     assert found['completed'] is True
@@ -47,7 +47,7 @@ def test_what_is_beside_the_line_is_the_score(written, tmp_path):
     assert found['pose_to_command_ms']['p50'] is None
 
 
-def test_a_run_whose_loop_nobody_timed_has_a_report(written, tmp_path):
+def test_a_run_without_measured_times_has_a_report(written, tmp_path):
     assert main([str(written(straight(0.002))), '-o', str(tmp_path / 'run')]) == 0
     assert score([str(tmp_path / 'run'), '--html', str(tmp_path / 'page.html')]) == 0
     assert 'not measured' in (tmp_path / 'page.html').read_text()

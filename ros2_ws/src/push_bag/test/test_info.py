@@ -1,10 +1,10 @@
-"""What a bag holds, told and taken out."""
+"""The contents of a bag, printed and extracted."""
 
 import pytest
 from push_bag.commands.info import main
 
 
-def test_it_tells_topics_rates_losses_and_facts(record, capsys):
+def test_info_prints_topics_rates_losses_and_facts(record, capsys):
     run = record(missing={'object_pose': (60, 61)}, facts={'operator': 'nobody'})
     assert main([str(run)]) == 0
     lines = capsys.readouterr().out.splitlines()
@@ -18,7 +18,7 @@ def test_it_tells_topics_rates_losses_and_facts(record, capsys):
     assert 'attached: params.yaml, 5 B' in lines
 
 
-def test_what_is_attached_is_written_into_a_new_folder(perfect, tmp_path, capsys):
+def test_attachments_are_extracted_to_a_new_folder(perfect, tmp_path, capsys):
     parts = tmp_path / 'parts'
     assert main([str(perfect), '--extract', str(parts)]) == 0
     assert {path.name: path.read_bytes() for path in parts.iterdir()} == {'params.yaml': b'a: 1\n'}
@@ -27,7 +27,7 @@ def test_what_is_attached_is_written_into_a_new_folder(perfect, tmp_path, capsys
     assert 'exists; name a new folder' in capsys.readouterr().err
 
 
-def test_what_cannot_be_written_whole_leaves_no_folder(perfect, tmp_path, monkeypatch):
+def test_a_failed_extraction_leaves_no_folder(perfect, tmp_path, monkeypatch):
     def full(*_):
         raise OSError(28, 'No space left on device')
 

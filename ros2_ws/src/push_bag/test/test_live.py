@@ -1,4 +1,4 @@
-"""The live view, watched by a WebSocket client that is not ours."""
+"""The live view, read by an independent WebSocket client."""
 
 import json
 import signal
@@ -25,7 +25,7 @@ MESSAGE_DATA = 1  # opcode of the protocol's binary frames
 
 
 class Watcher:
-    """Speaks the Foxglove WebSocket protocol, as its specification has it."""
+    """A client of the Foxglove WebSocket protocol."""
 
     def __init__(self, socket: ClientConnection) -> None:
         self._socket = socket
@@ -68,7 +68,7 @@ def publisher() -> Iterator[Node]:
 
 @pytest.fixture
 def port() -> Iterator[int]:
-    """Of a live view that runs."""
+    """The port of a running live view."""
     process = subprocess.Popen(
         [sys.executable, '-m', 'push_bag.commands.live', '--ros-args', '-p', 'port:=0'],
         stderr=subprocess.PIPE,
@@ -80,7 +80,7 @@ def port() -> Iterator[int]:
     assert process.wait(timeout=PATIENCE) == 0
 
 
-def test_a_browser_sees_poses_and_what_was_said_before_it_came(publisher: Node, port) -> None:
+def test_a_client_receives_poses_and_earlier_latched_messages(publisher: Node, port) -> None:
     models = publisher.create_publisher(ModelInfo, 'model_info', qos.LATCHED)
     poses = publisher.create_publisher(PoseStamped, 'object_pose', qos.POSE)
     plans = publisher.create_publisher(Horizon, 'horizon', qos.STATE)

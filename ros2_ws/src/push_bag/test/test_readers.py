@@ -1,4 +1,4 @@
-"""Readers that did not come from this project agree with what was written."""
+"""Independent readers read what was written."""
 
 from collections import Counter
 
@@ -99,7 +99,7 @@ def test_type_hashes_are_those_of_the_installed_ros(perfect):
 
 
 def test_the_hash_of_tf_is_that_which_ros_publishes():
-    """Where ROS comes as wheels this workspace brings the type along."""
+    """Where ROS is installed from wheels, this workspace defines the type."""
     theirs = get_typestore(Stores.ROS2_JAZZY).hash_rihs01('tf2_msgs/msg/TFMessage')
     assert type_hash('tf2_msgs/msg/TFMessage') == theirs
 
@@ -144,7 +144,7 @@ def test_nested_types_of_other_packages_are_in_the_bag(tmp_path):
 
 
 def test_schemas_name_their_parts_as_rosbag2_does(perfect):
-    """Foxglove's reader looks a field's `std_msgs/Header` up by that very name."""
+    """Foxglove's reader looks types up by the name that the field states."""
     reader = BagReader(perfect)
     list(reader.records())
     schema = reader.topics['/object_pose'].schema

@@ -1,4 +1,4 @@
-"""The recorder over real DDS, against a publisher that knows what it sent."""
+"""The recorder over DDS, against a publisher that counts its messages."""
 
 import re
 import signal
@@ -64,7 +64,7 @@ def cell():
 
 @pytest.fixture
 def start():
-    """Starts recorders and ends those that a test left behind."""
+    """Starts recorders; kills those that still run after the test."""
     started = []
 
     def start_recorder(*parameters, before=()):
@@ -155,7 +155,7 @@ def test_topics_that_appear_later_are_recorded_by_pattern(cell, start, tmp_path)
     assert data[8:12] == b'here'
 
 
-def test_a_publisher_that_offers_less_than_the_first_is_heard_as_well(cell, start, tmp_path):
+def test_a_publisher_that_offers_a_weaker_qos_than_the_first_is_recorded(cell, start, tmp_path):
     start(f'folder:={tmp_path / "run"}', 'topics:=/arm/joint')
     first = cell.create_publisher(String, '/arm/joint', 10)
     wait_until(first.get_subscription_count)

@@ -1,4 +1,4 @@
-"""All whole chunks of a broken bag are recovered, and what is missing is said."""
+"""All intact chunks of a damaged bag are recovered, and missing messages are counted."""
 
 import random
 
@@ -17,7 +17,7 @@ def content(perfect):
 
 @pytest.fixture(scope='module')
 def chunks(perfect):
-    """Where each chunk of the bag lies, and how many messages it has."""
+    """Offsets of start and end of each chunk, and its number of messages."""
     path = BagReader(perfect).path
     found = []
     with path.open('rb') as stream:
@@ -89,7 +89,7 @@ def test_bytes_that_were_taken_out_shift_the_rest_and_lose_no_more(
     assert 0.2e9 < found.missing_ns < 0.3e9
 
 
-def test_without_the_end_missing_messages_are_told_by_their_numbers(
+def test_without_the_end_missing_messages_are_counted_by_their_numbers(
     chunks, content, broken, tmp_path
 ):
     first, last, count = chunks[1]
@@ -99,7 +99,7 @@ def test_without_the_end_missing_messages_are_told_by_their_numbers(
     assert 'cut short' in found.text()
 
 
-def test_what_holds_nothing_is_one_line_and_makes_no_folder(broken, tmp_path, capsys):
+def test_a_file_without_a_chunk_gives_one_line_and_makes_no_folder(broken, tmp_path, capsys):
     for data in (b'', b'no bag at all' * 50):
         assert command.main([str(broken(data)), '-o', str(tmp_path / 'out')]) == 2
         assert capsys.readouterr().err.count('\n') == 1

@@ -1,4 +1,4 @@
-"""A bag is published again as it was recorded: bytes, order, timing, quality of service."""
+"""A bag is published as it was recorded: bytes, order, timing, QoS."""
 
 import time
 
@@ -21,7 +21,7 @@ PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 
 
 class Clock:
-    """A clock that only sleeping moves."""
+    """A clock that advances only by `sleep`."""
 
     def __init__(self):
         self.now = 100.0
@@ -47,7 +47,7 @@ def test_records_are_published_at_their_time_after_the_first(perfect, rate):
     assert sent == pytest.approx(expected, abs=1e-6)
 
 
-def test_records_that_polling_mixed_up_come_in_order():
+def test_records_are_sorted_by_log_time():
     times = [5, 3, 8, 6, 2_000_000_000, 9]
     assert [each.log_ns for each in in_order(map(record, times))] == sorted(times)
 
@@ -87,7 +87,7 @@ def test_text_that_is_no_profile_is_refused():
         (['--ask', '--loop'], '--loop has no effect'),
     ],
 )
-def test_what_cannot_be_played_is_refused_in_one_line(perfect, capsys, words, reason):
+def test_an_option_without_effect_or_out_of_range_gives_one_line(perfect, capsys, words, reason):
     assert main([str(perfect), *words]) == 2
     error = capsys.readouterr().err
     assert reason in error
@@ -95,7 +95,7 @@ def test_what_cannot_be_played_is_refused_in_one_line(perfect, capsys, words, re
 
 
 def test_a_subscriber_receives_the_recorded_bytes(perfect):
-    """Over real DDS, with a latched and a reliable topic of the bag."""
+    """Over DDS, with a latched and a reliable topic of the bag."""
     names = {'/nominal_trajectory', '/controller_state'}
     records = list(in_order(BagReader(perfect).records(names)))
     rclpy.init()
@@ -136,7 +136,7 @@ def test_the_start_counts_from_the_beginning_of_the_bag_whatever_the_topics(perf
     assert late.seconds == pytest.approx(whole.seconds, abs=0.01)
 
 
-def test_what_is_latched_is_not_skipped_with_the_time_before_the_start(perfect):
+def test_latched_messages_before_the_start_are_not_skipped(perfect):
     found = survey(perfect, None)
     begin = found.first_ns + 500_000_000
     records = list(from_time(begin, in_order(BagReader(perfect).records())))

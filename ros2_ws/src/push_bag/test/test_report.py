@@ -1,4 +1,4 @@
-"""The report is one file that loads nothing and shows the score."""
+"""The report is one file that loads nothing else and shows the score."""
 
 import json
 import re
@@ -24,7 +24,7 @@ def page(perfect):
 
 
 def own_markup(page):
-    """The page without the drawing library, which names addresses that it does not load."""
+    """The page without the drawing library, which contains addresses that it does not load."""
     return re.sub(r'<script>/\*\*.*?</script>', '', page, count=1, flags=re.DOTALL)
 
 
@@ -73,7 +73,7 @@ def test_facts_cannot_inject_markup(perfect):
     assert '<script>alert' not in report_html([(run, score_series(run))])
 
 
-def test_score_writes_the_report_where_told(perfect, tmp_path, capsys):
+def test_score_writes_the_report_to_the_named_file(perfect, tmp_path, capsys):
     assert main([str(perfect), '--html', str(tmp_path / 'page.html')]) == 0
     assert capsys.readouterr().out.startswith('completed')
     assert (tmp_path / 'page.html').stat().st_size > 1_000_000

@@ -1,4 +1,4 @@
-"""The report as a person meets it: opened in a browser, played, clicked on."""
+"""The report in a browser: opened, played, clicked."""
 
 import shutil
 import time
@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(BROWSER is None, reason='no chromium; Debian has
 
 @pytest.fixture(scope='module')
 def complaints() -> list[str]:
-    """What the page writes to the browser's console."""
+    """Messages that the page writes to the browser's console."""
     return []
 
 

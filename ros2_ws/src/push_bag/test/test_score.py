@@ -18,7 +18,7 @@ from rclpy.serialization import serialize_message
 
 
 def circling(pose, time):
-    """3 mm beside the reference, going round it."""
+    """3 mm from the reference, on a circle round it."""
     return pose + np.array([0.003 * math.cos(5 * time), 0.003 * math.sin(5 * time), 0.0])
 
 
@@ -113,14 +113,14 @@ def test_seven_missing_messages_are_seven_lost(record):
     assert sum(counts['lost'] for counts in messages.values()) == 7
 
 
-def test_without_sequence_numbers_the_stamps_tell_what_was_lost(record):
+def test_without_sequence_numbers_losses_are_counted_by_stamps(record):
     messages = score_run(record(missing={'object_pose': {40, 41, 90}}, numbered=False))['messages']
     assert messages['/object_pose']['lost'] == 3
     assert messages['/pusher_pose']['lost'] == 0
     assert messages['/model_info']['lost'] is None
 
 
-def test_what_was_never_published_is_missing_among_the_stamps_and_not_lost(record):
+def test_messages_that_were_never_published_are_missing_stamps_and_not_lost(record):
     counts = score_run(record(unanswered=(100, 101)))['messages']['/pusher_velocity_cmd']
     assert (counts['missing_stamps'], counts['lost']) == (2, 0)
 
@@ -193,7 +193,7 @@ def test_score_prints_one_json_object_or_a_table(record, capsys):
     assert lines[-1].endswith('messages lost; /object_pose 1')
 
 
-def test_the_results_tell_why_a_recorder_that_died_ended_the_run(record):
+def test_the_results_state_that_the_recorder_died(record):
     folder = record(duration=0.4)
     assert write_results(folder, 'recorder was killed')['stop_reason'] == 'recorder was killed'
     assert json.loads((folder / 'score.json').read_text())['stop_reason'] == 'recorder was killed'
@@ -219,17 +219,17 @@ def test_a_run_in_one_process_has_no_time_from_pose_to_command(record):
     assert score['deadline_misses'] == 1
 
 
-def test_what_the_cell_says_of_the_end_counts_more_than_what_the_controller_said(record):
+def test_the_stop_reason_of_the_cell_precedes_that_of_the_controller(record):
     score = score_run(record(stop_reason='no pose for 510 ms', end_reason='sim_node ended'))
     assert score['stop_reason'] == 'sim_node ended'
 
 
-def test_the_controller_says_why_it_stopped_where_the_cell_says_nothing(record):
+def test_the_stop_reason_of_the_controller_counts_if_the_cell_gives_none(record):
     assert score_run(record(stop_reason='no pose for 510 ms'))['stop_reason'] == (
         'no pose for 510 ms'
     )
 
 
-def test_a_controller_that_died_leaves_its_reason_to_the_cell(record):
+def test_the_cell_gives_the_reason_for_a_controller_that_died(record):
     score = score_run(record(end_reason='mpc_node ended with killed by signal 9'))
     assert score['stop_reason'] == 'mpc_node ended with killed by signal 9'

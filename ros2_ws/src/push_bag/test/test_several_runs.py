@@ -1,4 +1,4 @@
-"""Runs side by side: a line for each, mean and spread, differences, bounds."""
+"""Scores of several runs: table, mean and spread, comparison, bounds."""
 
 import json
 
@@ -9,7 +9,7 @@ from push_bag.commands.score import main
 
 @pytest.fixture(scope='module')
 def runs(record_once):
-    """Three runs that are 1, 2 and 4 mm beside their reference."""
+    """Three runs at 1, 2 and 4 mm from their reference."""
 
     def off(shift):
         return lambda pose, _time: pose + np.array([shift, 0.0, 0.0])
@@ -52,7 +52,7 @@ def test_a_figure_that_a_run_has_not_is_above_every_bound(record, capsys):
     assert f'{run} has no pose_to_command_ms.p50' in capsys.readouterr().err
 
 
-def test_a_run_that_was_not_completed_can_be_told_by_a_bound(runs, record, capsys):
+def test_a_bound_on_incomplete_refuses_a_run_that_was_not_completed(runs, record, capsys):
     assert main([runs[0], '--fail-above', 'incomplete=0']) == 0
     stopped = str(record(end_reason='a node died', modes=lambda _tick: 2, duration=0.4))
     assert main([stopped, '--fail-above', 'incomplete=0']) == 1
@@ -76,7 +76,7 @@ def test_a_comparison_takes_two_runs(runs):
     assert main([*runs, '--compare']) == 2
 
 
-def test_an_error_names_the_bag_that_it_is_about(runs, record, capsys):
+def test_an_error_names_its_bag(runs, record, capsys):
     broken = str(record(missing={'nominal_trajectory': {0}}))
     assert main([*runs, broken]) == 2
     assert f'{broken}: the bag holds no nominal trajectory' in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""Gaps are counted from sequence numbers, also where publishers share a topic."""
+"""Losses are counted from sequence numbers, also with several publishers on a topic."""
 
 import random
 
@@ -30,7 +30,7 @@ def counted(sequences):
         'late start',
         'two publishers',
         'one of two has a gap',
-        'a second publisher is heard late',
+        'a second publisher starts late',
         'unknown',
     ],
 )

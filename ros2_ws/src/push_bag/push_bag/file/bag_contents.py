@@ -14,6 +14,9 @@ from push_bag.file.bag_writer import COUNTS_RECORD, FACTS_RECORD
 from push_bag.file.mcap_stream import DamagedError, RawRecord
 from push_bag.file.topic_registry import Topic
 
+# what the mcap library raises for a damaged record
+UNREADABLE = (McapError, ValueError, KeyError, TypeError, OverflowError, struct.error)
+
 
 class BagContents:
     """What a bag states about itself, filled record by record.
@@ -57,7 +60,7 @@ class BagContents:
             return
         try:
             read(ReadDataStream(BytesIO(record.body)))
-        except (McapError, ValueError, KeyError, TypeError, struct.error) as error:
+        except UNREADABLE as error:
             raise DamagedError(f'a record is not readable ({error})') from None
 
     def _read_schema(self, body: ReadDataStream) -> None:

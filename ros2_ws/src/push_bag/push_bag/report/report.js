@@ -1,6 +1,6 @@
-// The moving parts of the report: one time cursor, shared by the animation and the plots.
-// A figure may be drawn later (figures.js): until then nothing moves in it.
-// `ANIMATION` is what animation.py wrote: lengths in mm, times in s, all runs on one time.
+// The time cursor of the report, shared by the animation and the plots.
+// Figures are drawn when they are scrolled to (figures.js); before, they are not updated.
+// `ANIMATION` is written by animation.py: lengths in mm, times in s, one time axis for all runs.
 const view = document.getElementById('animation');
 const errors = document.getElementById('time');
 const lap = document.getElementById('lap');
@@ -13,7 +13,7 @@ let cursor = 0;
 let playing = false;
 let lastFrame = 0;
 let lastMark = 0;
-const MARK_PERIOD = 250; // [ms] while it plays
+const MARK_PERIOD = 250; // [ms] between updates of the cursor in the plots while playing
 
 function frameAt(run, time) {
   let low = 0;
@@ -55,7 +55,7 @@ function horizon(run, frame) {
           run.horizon_y.slice(frame * width, (frame + 1) * width)];
 }
 
-// what moves, in the order of each run's traces
+// the moving traces of each run, in their order
 const MOVING = [trail, outline, horizon, tip];
 
 function draw() {
