@@ -6,9 +6,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection
-from push_bag.run.run_reader import read_run
-from push_bag.score.score import score_series
-from push_bag.score.tracking import track
+from push_bag import read_run, score_series, tracking_errors
 
 
 def draw(run_folder: Path, picture: Path) -> None:
@@ -16,7 +14,7 @@ def draw(run_folder: Path, picture: Path) -> None:
     run = read_run(run_folder)
     score = score_series(run)
     reference = run.reference
-    tracking = track(run, reference)
+    tracking = tracking_errors(run, reference)
     points = 1e3 * tracking.pose[::3, :2]
     error = 1e3 * tracking.distance[::3]
     figure, axes = plt.subplots(figsize=(9.0, 4.9), layout='constrained')

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from push_bag.score import Tracking as Tracking
     from push_bag.score import score_run as score_run
     from push_bag.score import score_series as score_series
-    from push_bag.score import track as track
+    from push_bag.score import tracking_errors as tracking_errors
 else:
     __getattr__, __dir__, __all__ = lazy_exports(
         __name__,
         {
             'file': ['BagReader', 'Record'],
             'run': ['Reference', 'RunSeries', 'Stamped', 'read_run'],
-            'score': ['Tracking', 'score_run', 'score_series', 'track'],
+            'score': ['Tracking', 'score_run', 'score_series', 'tracking_errors'],
         },
     )

@@ -8,7 +8,7 @@ from push_core.common import InputError
 from push_report.figure_style import RUN_COLOURS
 
 from push_bag.run import Reference, RunSeries
-from push_bag.score import Contact, LoopTiming, Tracking, contact, timing, track
+from push_bag.score import Contact, LoopTiming, Tracking, contact, timing, tracking_errors
 
 Scored = tuple[RunSeries, Mapping[str, Any]]
 
@@ -61,7 +61,7 @@ def _reported(number: int, run: RunSeries, score: Mapping[str, Any]) -> Reported
         series=run,
         score=score,
         reference=run.reference,
-        tracking=track(run, run.reference),
+        tracking=tracking_errors(run, run.reference),
         contact=contact(run, run.reference),
         timing=timing(run),
     )

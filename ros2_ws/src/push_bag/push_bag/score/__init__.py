@@ -7,7 +7,7 @@ from push_bag.score.score import score_run, score_series
 from push_bag.score.score_table import messages_line, score_rows, score_table
 from push_bag.score.tick_table import TickTable, tick_table
 from push_bag.score.timing import DEADLINE, LoopTiming, timing
-from push_bag.score.tracking import Tracking, reference_times, track
+from push_bag.score.tracking import Tracking, reference_times, tracking_errors
 
 __all__ = [
     'DEADLINE',
@@ -31,5 +31,5 @@ __all__ = [
     'score_table',
     'tick_table',
     'timing',
-    'track',
+    'tracking_errors',
 ]

@@ -17,7 +17,7 @@ from push_bag.run import Floats, Reference, RunSeries, read_run
 from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.message_counts import message_counts
 from push_bag.score.timing import timing
-from push_bag.score.tracking import Tracking, track, track_truth
+from push_bag.score.tracking import Tracking, tracking_errors, true_tracking_errors
 
 LIMITS = {
     'not_finite': ControllerState.LIMITED_NOT_FINITE,
@@ -50,7 +50,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
     """
     if run.reference is None:
         raise InputError('the bag holds no nominal trajectory, so there is nothing to score')
-    tracking, truth = track(run, run.reference), track_truth(run, run.reference)
+    tracking, truth = tracking_errors(run, run.reference), true_tracking_errors(run, run.reference)
     score = {
         **_verdict(run, run.reference, tracking),
         **_setting(run, run.reference),

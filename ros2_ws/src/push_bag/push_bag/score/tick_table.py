@@ -8,7 +8,7 @@ from push_core.common import InputError
 
 from push_bag.run import Floats, Nanoseconds, Reference, RunSeries, Stamped
 from push_bag.score.contact import contact
-from push_bag.score.tracking import Tracking, track
+from push_bag.score.tracking import Tracking, tracking_errors
 
 TickTable: TypeAlias = dict[str, NDArray[np.float64] | NDArray[np.int64]]
 COUNTS = ('mode', 'iterations', 'solver_status', 'limited')
@@ -28,7 +28,7 @@ def tick_table(run: RunSeries) -> TickTable:
         'stamp_ns': stamp,
         'reference_time_s': np.where(np.isfinite(reference_time), reference_time, np.nan),
         **_measured(run),
-        **_errors(track(run, run.reference), stamp),
+        **_errors(tracking_errors(run, run.reference), stamp),
         **_contact(run, run.reference, stamp),
         **{name: run.state(name) for name in ('v_n', 'v_t', 'nominal_v_n', 'nominal_v_t')},
         'solve_s': run.state('solve_ms') * 1e-3,

@@ -75,12 +75,12 @@ def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
     return times
 
 
-def track(run: RunSeries, reference: Reference) -> Tracking:
+def tracking_errors(run: RunSeries, reference: Reference) -> Tracking:
     """The errors of the measured poses of a run against its reference."""
     return _tracking(run, reference, run.object)
 
 
-def track_truth(run: RunSeries, reference: Reference) -> Tracking | None:
+def true_tracking_errors(run: RunSeries, reference: Reference) -> Tracking | None:
     """The errors of the true poses of a run against its reference; None without ground truth."""
     return _tracking(run, reference, run.truth) if run.truth.stamp.size else None
 
