@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from push_core.common import InputError, Parser, run_command, write_atomically
+from push_core.common import InputError, Parser, plain_table, run_command, write_atomically
 
 from push_bag.file import BagReader, Traffic, lost_text
 
@@ -60,14 +60,7 @@ def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
         lost = str(seen.lost) if seen.numbered or not seen.received else '?'
         gap = f'{seen.longest_ns * 1e-6:.1f}'
         rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}', gap))
-    widths = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)]
-    return [_aligned(row, widths) for row in rows]
-
-
-def _aligned(row: tuple[str, ...], widths: list[int]) -> str:
-    texts = [f'{cell:<{width}}' for cell, width in zip(row[:2], widths[:2], strict=True)]
-    numbers = [f'{cell:>{width}}' for cell, width in zip(row[2:], widths[2:], strict=True)]
-    return '  '.join(texts + numbers)
+    return plain_table(rows, left=2)
 
 
 def _duration(traffic: dict[str, Traffic]) -> float:

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from push_core.common import plain_table
 
 from push_bag.score.bounds import COMPARED, figure
 
@@ -35,7 +36,7 @@ def runs_table(scores: Scores) -> str:
     columns = [_over_runs(scores, path) for path in SHOWN.values()]
     rows.append(('mean', f'{done} of {len(scores)}', *(_number(mean) for mean, _ in columns)))
     rows.append(('spread', '', *(_number(spread) for _, spread in columns)))
-    return _aligned(rows)
+    return '\n'.join(plain_table(rows)) + '\n'
 
 
 def comparison_table(scores: Scores) -> str:
@@ -45,7 +46,7 @@ def comparison_table(scores: Scores) -> str:
     for path in COMPARED:
         before, after = figure(one, path), figure(other, path)
         rows.append((path, _number(before), _number(after), _number(after - before)))
-    return _aligned(rows)
+    return '\n'.join(plain_table(rows)) + '\n'
 
 
 def runs_object(scores: Scores) -> dict[str, Any]:
@@ -72,13 +73,3 @@ def _known(value: float) -> float | None:
 
 def _number(value: float) -> str:
     return f'{value:.3g}' if math.isfinite(value) else '-'
-
-
-def _aligned(rows: Sequence[tuple[str, ...]]) -> str:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = (
-        f'{row[0]:<{widths[0]}}  '
-        + '  '.join(f'{cell:>{width}}' for cell, width in zip(row[1:], widths[1:], strict=True))
-        for row in rows
-    )
-    return '\n'.join(lines) + '\n'

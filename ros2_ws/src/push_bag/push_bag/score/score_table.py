@@ -3,14 +3,14 @@
 from collections.abc import Mapping
 from typing import Any
 
+from push_core.common import plain_table
+
 Row = tuple[str, str]
 
 
 def score_table(score: Mapping[str, Any]) -> str:
     """The score as a table of names and values, then a line about lost messages."""
-    rows = score_rows(score)
-    width = max(len(name) for name, _ in rows)
-    lines = [f'{name:<{width}}  {value}' for name, value in rows]
+    lines = plain_table(score_rows(score), left=2)
     return '\n'.join([*lines, '', messages_line(score)]) + '\n'
 
 
