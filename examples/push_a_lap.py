@@ -14,7 +14,7 @@ def main() -> None:
     model = train(collect_pushes(200, seed=0))
     plan = planned(mpc_settings('irb120'))
     controller = Controller(mpc_settings('irb120'), slider, plan)
-    controller.use(controller.prepared(tabulated(model, slider.side), model.info.model_id))
+    controller.use(controller.prepare_model(tabulated(model, slider.side), model.info.model_id))
     error = np.array(lap_errors(Plant(profile('irb120'), slider), controller, plan, slider))
     print(f'mean tracking error {1e3 * error.mean():.2f} mm, largest {1e3 * error.max():.2f} mm')
 
