@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -54,3 +55,31 @@ def test_the_prose_of_a_page_fits_a_screen(page: Path) -> None:
     lines = page.read_text(encoding='utf-8').splitlines()
     prose = [line for line in lines if not line.startswith(('|', '    ', '<', '!['))]
     assert [line for line in prose if len(line) > 112] == []
+
+
+def commands() -> Iterator[tuple[str, str, str, str]]:
+    """Page, package, executable and arguments of each command."""
+    for page in PAGES:
+        for line in page.read_text(encoding='utf-8').splitlines():
+            for found in re.finditer(r'ros2 run (push_\w+) ([\w-]+)([^`#|]*)', line):
+                yield page.name, *found.groups()
+
+
+def test_the_commands_of_the_pages_exist_with_their_options() -> None:
+    unknown = []
+    for page, package, executable, rest in commands():
+        setup = (SOURCES / package / 'setup.py').read_text(encoding='utf-8')
+        sources = ''.join(
+            path.read_text(encoding='utf-8')
+            for folder in {package, 'push_core', 'push_node'}
+            for path in (SOURCES / folder / folder).rglob('*.py')
+        )
+        if f"'{executable} = " not in setup:
+            unknown.append(f'{page}: {package} {executable}')
+        options = set(re.findall(r'(?<!\S)--([a-z][a-z-]+)', rest)) - {'ros-args', 'params-file'}
+        unknown += [
+            f'{page}: {executable} --{name}'
+            for name in options
+            if not re.search(f"'(--)?{name}'", sources)
+        ]
+    assert unknown == []
