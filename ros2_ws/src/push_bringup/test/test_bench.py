@@ -20,7 +20,8 @@ from push_bringup.bench.tables import ablation_rows, paper_rows, real_time_rows,
 from push_bringup.bench.training_size import TrainingSet, chosen_rows
 from push_bringup.bench.training_size_page import training_size_page
 from push_bringup.commands import bench
-from push_bringup.experiment.experiment import PAPER_MM, Experiment, Lap, LapJob, pushed
+from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
+from push_bringup.experiment.lap import Lap, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
 from push_core.common.strict_json import finite
 

@@ -40,7 +40,7 @@ def test_nodes_that_end_when_asked_are_not_killed(started, capsys) -> None:
 
 
 def test_a_node_that_does_not_end_is_killed_and_named(started, capsys, monkeypatch) -> None:
-    monkeypatch.setattr(processes, 'PATIENCE', 0.1)
+    monkeypatch.setattr(processes, 'STOP_TIMEOUT', 0.1)
     with started(stubborn=STUBBORN) as nodes:
         pass
     assert nodes.status('stubborn') == -9
@@ -48,7 +48,7 @@ def test_a_node_that_does_not_end_is_killed_and_named(started, capsys, monkeypat
     assert said == 'cell: stubborn did not end within 0.1 s and was killed\n'
 
 
-def test_a_node_that_ended_is_named_with_its_last_words(started) -> None:
+def test_a_node_that_ended_is_named_with_its_last_line(started) -> None:
     with started(broken="raise SystemExit('no table')") as nodes:
         end = time.monotonic() + HANG
         while nodes.status('broken') is None:

@@ -62,10 +62,10 @@ def _push(cell, record):
         poses = observation.object_pose, observation.tip_position
         if number == 40:
             tick = controller.hold(to_seconds(now))
-            record.told(tick, origin + now + 1, 0.0)
+            record.controller_tick(tick, origin + now + 1, 0.0)
         elif number == 80:
             tick = Tick(Mode.STOPPED, np.zeros(2))
-            record.told(tick, origin + now + 1, 0.0)
+            record.controller_tick(tick, origin + now + 1, 0.0)
         else:
             tick = controller.step(*poses, to_seconds(seen), to_seconds(now))
             record.tick(observation, tick, 0.0)

@@ -24,7 +24,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def page() -> str:
-    """The page, one table a node."""
+    """The page, with one table per node."""
     return ''.join([HEAD, *(_section(*node) for node in node_defaults('irb120').items())])
 
 

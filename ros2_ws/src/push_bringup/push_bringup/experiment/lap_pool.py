@@ -13,18 +13,19 @@ from pathlib import Path
 from push_core.common import InputError, worker_pool
 from tqdm import tqdm
 
-from push_bringup.experiment.experiment import Lap, LapJob, pushed
+from push_bringup.experiment.experiment import LapJob
+from push_bringup.experiment.lap import Lap, pushed
 
 
 class LapStore:
     """A file of finished laps, one JSON object a line."""
 
     def __init__(self, path: Path, fresh: bool = False) -> None:
-        """Reads what is there.
+        """Reads the file.
 
         Args:
-            path: of the file; made where there is none.
-            fresh: whether to forget what is there.
+            path: of the file; created if missing.
+            fresh: whether to clear it.
 
         Raises:
             InputError: the file cannot be read or written.
@@ -46,11 +47,11 @@ class LapStore:
         return self._laps.get(job.key)
 
     def add(self, job: LapJob, lap: Lap) -> None:
-        """Keeps a lap, on disk as well."""
+        """Adds a lap, in memory and on disk."""
         self._laps[job.key] = lap
         line = json.dumps({'key': job.key, 'lap': asdict(lap)}, separators=(',', ':'))
         with self._path.open('a', encoding='utf-8') as file:
-            # on a line of its own, also after one that a kill cut off
+            # a killed process may have left half a line
             file.write(f'\n{line}\n' if self._is_torn else f'{line}\n')
         self._is_torn = False
 
@@ -59,7 +60,7 @@ class LapStore:
             entry = json.loads(line)
             self._laps[entry['key']] = Lap.from_json(entry['lap'])
         except (ValueError, KeyError, TypeError):
-            # the end of a line that a kill cut off
+            # half a line of a killed process
             return
 
 
@@ -67,8 +68,8 @@ def push_all(jobs: Sequence[LapJob], store: LapStore, processes: int) -> list[La
     """The laps of the jobs, in their order.
 
     Args:
-        jobs: to be pushed, unless the store has them.
-        store: takes each lap as soon as it is done.
+        jobs: pushed unless the store has them.
+        store: gets each lap as soon as it is done.
         processes: that push at the same time.
 
     Raises:

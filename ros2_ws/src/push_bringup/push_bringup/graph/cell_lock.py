@@ -1,4 +1,4 @@
-"""One cell at a time in a ROS domain and namespace: two would drive each other's pusher."""
+"""One cell at a time in a ROS domain and namespace: two would command the same pusher."""
 
 import fcntl
 import os
@@ -10,7 +10,7 @@ from push_core.common import RunError
 
 
 class CellLock:
-    """Holds the name of a cell; the kernel lets go of it when the process ends."""
+    """Locks the name of a cell; the kernel releases the lock when the process ends."""
 
     def __init__(self, namespace: str) -> None:
         domain = os.environ.get('ROS_DOMAIN_ID', '0') or '0'

@@ -1,4 +1,4 @@
-"""Leads the node graph through one run: reset, start, watch."""
+"""Runs the node graph once: reset, start, watch."""
 
 import math
 import time
@@ -29,7 +29,7 @@ _STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
 
 
 class Conductor:
-    """A node beside the cell that calls its services and listens to its controller."""
+    """A node that calls the services of the cell and listens to its controller."""
 
     def __init__(self, namespace: str, processes: Processes) -> None:
         stop_on_signals()
@@ -58,7 +58,7 @@ class Conductor:
             seed: of the plant.
 
         Returns:
-            Why it ended before its end, empty if it did not; the recorder is told as well.
+            Reason of an early end, else an empty string; it is also published for the recorder.
 
         Raises:
             KeyboardInterrupt: a stop was requested.
@@ -71,18 +71,18 @@ class Conductor:
         return reason
 
     def _run(self, seed: int) -> str:
-        """Why the controller stopped before the end, empty if it did not.
+        """Reason of an early stop of the controller, else an empty string.
 
         Raises:
-            RunError: the cell did not get ready, or a node ended.
+            RunError: the cell did not become ready, or a node ended.
             KeyboardInterrupt: a stop was requested.
         """
         self._wait(lambda: self._plan is not None, READY_TIMEOUT, 'no plan from mpc_node')
-        self._put_in_place(seed)
+        self._reset_plant(seed)
         self._start_when_ready()
         return self._watch()
 
-    def _put_in_place(self, seed: int) -> None:
+    def _reset_plant(self, seed: int) -> None:
         plan = self._plan
         assert plan is not None
         pose = np.array([plan.x[0], plan.y[0], plan.theta[0]])
@@ -91,14 +91,14 @@ class Conductor:
         request = Reset.Request(seed=seed, object_pose=pose, tip_position=tip)
         answer = self._call(self._reset, request)
         if not answer.success:
-            raise RunError(f'the plant refused its start: {answer.message}')
+            raise RunError(f'the plant refused to reset: {answer.message}')
 
     def _start_when_ready(self) -> None:
         deadline = time.monotonic() + READY_TIMEOUT
         while not (answer := self._call(self._start, Trigger.Request())).success:
             if time.monotonic() > deadline:
-                raise RunError(f'the cell did not get ready: {answer.message}')
-            self._came_true(lambda: False, RETRY_PERIOD)
+                raise RunError(f'the cell did not become ready: {answer.message}')
+            self._wait_for(lambda: False, RETRY_PERIOD)
 
     def _watch(self) -> str:
         assert self._plan is not None
@@ -125,16 +125,16 @@ class Conductor:
         self._last_tick = time.monotonic()
 
     def _call(self, client: Client, request: object) -> Any:
-        answer = ask(client, request, self._came_true)
+        answer = ask(client, request, self._wait_for)
         if answer is None:
             raise RunError(f'no answer from {client.srv_name}')
         return answer
 
     def _wait(self, finished: Callable[[], bool], timeout: float, complaint: str) -> None:
-        if not self._came_true(finished, timeout):
+        if not self._wait_for(finished, timeout):
             raise RunError(f'{complaint} within {timeout:g} s')
 
-    def _came_true(self, finished: Callable[[], bool], timeout: float) -> bool:
+    def _wait_for(self, finished: Callable[[], bool], timeout: float) -> bool:
         deadline = time.monotonic() + timeout
         while not finished() and time.monotonic() < deadline:
             self._spin_once()

@@ -1,4 +1,4 @@
-"""A run of the real node graph: four processes over DDS."""
+"""A run of the node graph: four processes over DDS."""
 
 import os
 import time
@@ -9,7 +9,7 @@ from push_bringup.graph.processes import Processes
 from push_bringup.setup import Request, installed_config
 
 FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
-COMING_TO_REST = 0.3  # [s]: watchdog, braking, and the last messages on their way
+REST_TIME = 0.3  # [s] for watchdog, braking and the last messages
 
 
 def run_graph(params: Path, request: Request, logs: Path) -> str:
@@ -17,11 +17,11 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 
     Args:
         params: resolved parameter file.
-        request: whose namespace and seed count here.
-        logs: folder for what the nodes say.
+        request: gives namespace and seed.
+        logs: folder for the output of the nodes.
 
     Returns:
-        Why the run ended before its end, empty if it did not.
+        Reason of an early end, else an empty string.
 
     Raises:
         KeyboardInterrupt: a stop was requested.
@@ -32,7 +32,7 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
     ):
         os.environ.setdefault(FAST_DDS_PROFILES, str(installed_config('fastdds.xml')))
         processes.start()
-        # rclpy takes its time to import: the nodes are starting meanwhile
+        # rclpy is slow to import: the nodes start meanwhile
         from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
 
         conductor = Conductor(request.namespace, processes)
@@ -44,8 +44,8 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 
 
 def _stop_in_order(processes: Processes) -> None:
-    """The controller first; the recorder last, when the plant is at rest."""
+    """Stops the controller first and the recorder last, when the plant is at rest."""
     processes.interrupt('mpc_node', 'gp_server')
-    time.sleep(COMING_TO_REST)
+    time.sleep(REST_TIME)
     processes.stop('sim_node', 'mpc_node', 'gp_server')
     processes.stop('recorder')

@@ -16,7 +16,7 @@ MODULES = {
     'mpc_node': 'push_mpc.node.mpc_node',
     'recorder': 'push_bag.record.recorder',
 }
-PATIENCE = 10.0  # [s] for a node to end after SIGINT; one that is killed may leave half a bag
+STOP_TIMEOUT = 10.0  # [s] from SIGINT to SIGKILL; a killed recorder leaves an unfinished bag
 _SET_PARENT_DEATH_SIGNAL = 1
 _LIBC = ctypes.CDLL(None)
 
@@ -29,18 +29,18 @@ class Child:
     process: 'subprocess.Popen[bytes]'
     log: Path
 
-    def last_words(self) -> str:
-        """The last line that it wrote, or how it ended."""
-        lines = self.log.read_text(encoding='utf-8', errors='replace').split('\n')
-        spoken = [line for line in lines if line.strip()]
+    def end_message(self) -> str:
+        """How the node ended, with the last line of its output."""
+        text = self.log.read_text(encoding='utf-8', errors='replace')
+        lines = [line for line in text.split('\n') if line.strip()]
         code = self.process.returncode
         killed = code is not None and code < 0
         ended = f'was killed by signal {-code}' if killed else f'ended with status {code}'
-        return f'{self.name} {ended}' + (f': {spoken[-1]}' if spoken else '')
+        return f'{self.name} {ended}' + (f': {lines[-1]}' if lines else '')
 
 
 class Processes:
-    """The nodes of one cell; use as a context manager, which leaves none behind."""
+    """The nodes of one cell; as a context manager it stops them all at its end."""
 
     def __init__(self, params: Path, namespace: str, logs: Path) -> None:
         self._params = params
@@ -60,14 +60,14 @@ class Processes:
             command = [sys.executable, '-m', module, '--ros-args', *self._ros_arguments()]
             log = self._logs / f'{name}.log'
             with log.open('wb') as output:
-                # a session of its own: Ctrl-C reaches the cell, which stops the nodes in order
+                # its own session: Ctrl-C reaches only the cell, which stops the nodes in order
                 process = subprocess.Popen(
                     command,
                     stdin=subprocess.DEVNULL,
                     stdout=output,
                     stderr=output,
                     start_new_session=True,
-                    preexec_fn=_die_with_parent,  # noqa: PLW1509  no thread runs yet
+                    preexec_fn=_end_with_parent,  # noqa: PLW1509  no thread runs yet
                 )
             self._children[name] = Child(name, process, log)
 
@@ -75,26 +75,26 @@ class Processes:
         """Raises if a node has ended.
 
         Raises:
-            RunError: names the node and repeats its last words.
+            RunError: with the name of the node and its last line of output.
         """
         for child in self._children.values():
             if child.process.poll() is not None:
-                raise RunError(child.last_words())
+                raise RunError(child.end_message())
 
     def status(self, name: str) -> int | None:
         """Exit status of a node, None while it runs."""
         return self._children[name].process.poll()
 
     def interrupt(self, *names: str) -> None:
-        """Asks nodes to end."""
+        """Interrupts nodes."""
         for name in names:
             if self.status(name) is None:
                 self._children[name].process.send_signal(signal.SIGINT)
 
     def stop(self, *names: str) -> None:
-        """Asks nodes to end, waits for them, and kills those that do not, saying so."""
+        """Interrupts nodes, waits for them, and kills those that do not end, with a warning."""
         self.interrupt(*names)
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + STOP_TIMEOUT
         for name in names:
             self._wait(name, deadline)
 
@@ -105,7 +105,9 @@ class Processes:
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
-            sys.stderr.write(f'cell: {name} did not end within {PATIENCE:g} s and was killed\n')
+            sys.stderr.write(
+                f'cell: {name} did not end within {STOP_TIMEOUT:g} s and was killed\n'
+            )
 
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]
@@ -113,12 +115,12 @@ class Processes:
             # rclpy takes long to import, and the other cells need none of it here
             from push_node.interface import CLOCK  # noqa: PLC0415
 
-            # simulated time is each cell's own
+            # each cell has its own simulated time
             clock = f'{CLOCK.name}:={CLOCK.short_name}'
             arguments += ['-r', f'__ns:=/{self._namespace}', '-r', clock]
         return arguments
 
 
-def _die_with_parent() -> None:
-    """A killed cell leaves no nodes behind."""
+def _end_with_parent() -> None:
+    """Makes the kernel end the node when the cell is killed."""
     _LIBC.prctl(_SET_PARENT_DEATH_SIGNAL, signal.SIGTERM)

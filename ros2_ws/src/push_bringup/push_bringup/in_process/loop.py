@@ -1,4 +1,4 @@
-"""A run in one process: the same plant and controller, without DDS, faster than real time."""
+"""Plant and controller in one loop, without DDS, faster than real time."""
 
 import time
 from collections.abc import Callable
@@ -17,15 +17,15 @@ OnTick = Callable[[Observation, Tick, float], None]
 
 
 class InProcessCell:
-    """Plant and controller in one loop; gives the trajectory that lockstep gives.
+    """Plant and controller in one loop; the trajectory equals that of lockstep.
 
     Attributes:
-        plant: what is pushed.
-        controller: what pushes.
+        plant: object, tip and sensors.
+        controller: commands the tip.
     """
 
     def __init__(self, parameters: CellParameters, model: PushModel, plan: Plan) -> None:
-        """Brings plant and controller together for a plan of these parameters."""
+        """Makes plant and controller; the plan must be of the same parameters."""
         mpc = parameters.mpc
         self.plant = Plant(parameters.sim, parameters.sim.slider)
         self.controller = Controller(mpc, mpc.slider, plan)
@@ -38,11 +38,10 @@ class InProcessCell:
         """Pushes once along the track.
 
         Args:
-            on_tick: told of every observation, what the controller made of it, and the
-                milliseconds that this took.
+            on_tick: called with every observation, the controller's tick and its duration [ms].
 
         Returns:
-            Why it stopped before the end, empty if it did not.
+            Reason of an early stop, else an empty string.
         """
         observation = self._reset()
         origin = nanoseconds(observation.time)
@@ -72,24 +71,24 @@ class InProcessCell:
 
 
 def tabulated(model: PushModel, side: float) -> Table:
-    """The table that the controller would make of the server's answers."""
+    """The table of a model as mpc_node makes it, by direct calls in place of the service."""
     info = model.info
     data = Domain.of_data(info.p_y_domain, info.beta_domain, side)
-    conversation = tabulation(ModelScope(data, info.kind, info.mean_function, side))
-    question = next(conversation)
+    queries = tabulation(ModelScope(data, info.kind, info.mean_function, side))
+    query = next(queries)
     try:
         while True:
-            question = conversation.send(_answer(model, question))
+            query = queries.send(_result(model, query))
     except StopIteration as done:
         return done.value.table  # type: ignore[no-any-return]
 
 
-def _answer(model: PushModel, question: Query) -> QueryResult:
-    asked = (question.p_y, question.beta)
-    variance = model.variance(*asked) if question.want_variance else np.empty((0, 3))
-    return QueryResult.of(*model.evaluate(*asked), variance, model.distance)
+def _result(model: PushModel, query: Query) -> QueryResult:
+    inputs = (query.p_y, query.beta)
+    variance = model.variance(*inputs) if query.want_variance else np.empty((0, 3))
+    return QueryResult.of(*model.evaluate(*inputs), variance, model.distance)
 
 
 def nanoseconds(plant_time: float) -> int:
-    """What the topics call a plant time [s], in whole nanoseconds."""
+    """A plant time [s] in whole nanoseconds, as in the stamps of the topics."""
     return round(plant_time * 1e9)

@@ -1,9 +1,7 @@
-"""Computes the commands of a recorded run again, from its poses, with its controller or another.
+"""Recomputes the commands of a recorded run from its poses, with its controller or another one.
 
-The controller is given exactly what it was given then: each pair of poses, the times that it knew,
-the model from the tick on at which it took it, starts and stops. What was sent then stays what it
-keeps in mind, for that is what moved the tip: another controller is asked what it would have sent
-next, at each tick anew.
+The controller gets the recorded inputs of every tick: poses, times, model, starts and stops. The
+delay predictor is fed the recorded commands, not the recomputed ones, because those moved the tip.
 """
 
 import math
@@ -28,15 +26,16 @@ from push_bringup.in_process.recorded_model import RecordedModel
 from push_bringup.setup import CellParameters, recorded_parameters
 
 PARAMS_FILE = 'params.yaml'
-ModelUsed = Callable[[str], PushModel]  # by the id of the one that the run used
+ModelById = Callable[[str], PushModel]
+"""Recorded model id, to the model to use in its place."""
 
 
 def recomputed(path: Path, changes: Changes) -> Recomputed:
-    """The commands of a run, recorded and computed again.
+    """The recorded and the recomputed commands of a run.
 
     Args:
         path: run folder or MCAP file.
-        changes: what shall differ from the recorded run.
+        changes: differences from the recorded run.
 
     Raises:
         InputError: the bag lacks parameters, model or track, or a change is not possible.
@@ -45,30 +44,30 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
     with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
         files = _unpacked(run, Path(scratch))
         parameters = _parameters(run, changes, files)
-        shadow = Shadow(parameters, _model_used(run, parameters, files))
-    return _compared(run, shadow)
+        controller = RecomputingController(parameters, _models_of(run, parameters, files))
+    return _compared(run, controller)
 
 
-class Shadow(Controller):
-    """A controller that computes what it would send and keeps in mind what was sent instead."""
+class RecomputingController(Controller):
+    """A controller that computes commands but predicts with the recorded ones."""
 
-    def __init__(self, parameters: CellParameters, model_used: ModelUsed) -> None:
-        """Plans anew, from the parameters.
+    def __init__(self, parameters: CellParameters, model_by_id: ModelById) -> None:
+        """Plans from the parameters.
 
         Args:
             parameters: of the cell.
-            model_used: the model to use in place of the one that had an id.
+            model_by_id: the model to use where the run used the one of an id.
         """
         super().__init__(parameters.mpc, parameters.mpc.slider, planned(parameters.mpc))
         self._side = parameters.mpc.slider.side
-        self._model_used = model_used
+        self._model_by_id = model_by_id
         self._recorded_id = ''
-        self._was_sent: Array | None = None
+        self._recorded_command: Array | None = None
 
-    def answer(self, tick: RecordedTick) -> Array | None:
-        """What it sends at a recorded tick (2,) [m/s]; None where nothing can be computed."""
+    def command_at(self, tick: RecordedTick) -> Array | None:
+        """The command at a recorded tick (2,) [m/s]; None where a pose is missing."""
         self._prepare_for(tick)
-        self._was_sent = tick.velocity
+        self._recorded_command = tick.velocity
         if math.isnan(tick.exposure):
             return self._without_poses(tick)
         if tick.object_pose is None or tick.tip is None:
@@ -78,10 +77,12 @@ class Shadow(Controller):
         return velocity
 
     def _remember(self, velocity: Array, now: float) -> None:
-        super()._remember(velocity if self._was_sent is None else self._was_sent, now)
+        super()._remember(
+            velocity if self._recorded_command is None else self._recorded_command, now
+        )
 
     def _prepare_for(self, tick: RecordedTick) -> None:
-        """Takes the model and starts, where the recorded controller had done so."""
+        """Takes the model and starts where the recorded controller did."""
         if tick.model_id != self._recorded_id:
             self._take_model(tick.model_id)
         begins = tick.mode == Mode.ARMED and self.mode != Mode.ARMED
@@ -91,7 +92,7 @@ class Shadow(Controller):
             self.arm()
 
     def _take_model(self, recorded_id: str) -> None:
-        model = self._model_used(recorded_id)
+        model = self._model_by_id(recorded_id)
         table = tabulated(model, self._side)
         self.use(self.prepare_model(table, model.info.model_id))
         self._recorded_id = recorded_id
@@ -103,10 +104,10 @@ class Shadow(Controller):
         return self.hold(tick.now).velocity
 
 
-def _compared(run: RecordedRun, shadow: Shadow) -> Recomputed:
+def _compared(run: RecordedRun, controller: RecomputingController) -> Recomputed:
     stamps, recorded, computed, skipped = [], [], [], 0
     for tick in tqdm(run.ticks(), total=len(run), unit='tick', desc='recomputing', disable=None):
-        velocity = shadow.answer(tick)
+        velocity = controller.command_at(tick)
         if tick.velocity is None or tick.mode == Mode.IDLE:
             continue
         if velocity is None:
@@ -123,8 +124,8 @@ def _compared(run: RecordedRun, shadow: Shadow) -> Recomputed:
     )
 
 
-def _model_used(run: RecordedRun, parameters: CellParameters, files: dict[str, Path]) -> ModelUsed:
-    """The recorded model as it grew; where another was named, that one throughout."""
+def _models_of(run: RecordedRun, parameters: CellParameters, files: dict[str, Path]) -> ModelById:
+    """The recorded model with the pushes added until then; or the model that the changes name."""
     model = model_named(parameters.gp.model, parameters.gp.slider)
     if parameters.gp != _parameters(run, Changes(), files).gp:
         return lambda _recorded_id: model
@@ -141,9 +142,9 @@ def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:
 
 
 def _parameters(run: RecordedRun, changes: Changes, files: dict[str, Path]) -> CellParameters:
-    """The parameters of the run with the changes, and its files where they are now."""
+    """The parameters of the run with the changes and the paths of its unpacked files."""
     if PARAMS_FILE not in files:
-        raise InputError(f'{run.reader.path} holds no {PARAMS_FILE}: who made it is not known')
+        raise InputError(f'{run.reader.path} holds no {PARAMS_FILE}, so its controller is unknown')
     text = files[PARAMS_FILE].read_text(encoding='utf-8')
     overrides = dict(changes.params)
     if changes.controller:
@@ -158,7 +159,7 @@ def _parameters(run: RecordedRun, changes: Changes, files: dict[str, Path]) -> C
 
 
 def _model(recorded: str, changes: Changes, files: dict[str, Path]) -> str:
-    """Name of the model: that of the run, unless the controller was changed to the analytical."""
+    """Name of the model: that of the changes, of the changed controller, or of the run."""
     if changes.model is not None:
         return str(changes.model)
     if changes.controller and not CONTROLLERS[changes.controller].trained_model:

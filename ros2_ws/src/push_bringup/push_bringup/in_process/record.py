@@ -1,4 +1,4 @@
-"""The bag of a run in one process: the same topics, in plant time."""
+"""Records a run in one process: the same topics as the node graph, in plant time."""
 
 from typing import Any
 
@@ -24,7 +24,7 @@ ALSO_RECORDED = (interface.PERTURBATION, interface.HORIZON, interface.GROUND_TRU
 
 
 class InProcessRecord:
-    """Writes what the nodes would have published."""
+    """Writes the messages that the nodes would publish."""
 
     def __init__(self, writer: BagWriter, plant: Plant, controller: Controller) -> None:
         self._writer = writer
@@ -42,7 +42,7 @@ class InProcessRecord:
                 writer.add_topic(topic.absolute_name, topic.type_name, qos_text(topic.qos))
 
     def head(self, settings: MpcSettings, info: ModelInfo) -> None:
-        """Plan and model, before the first tick."""
+        """Writes plan and model, before the first tick."""
         stamp = to_stamp(nanoseconds(self._plant.START))
         plan = mpc.nominal_message(self._controller.plan, settings)
         plan.header.stamp = stamp
@@ -50,7 +50,7 @@ class InProcessRecord:
         self._write(interface.MODEL_INFO, model_info_message(info, stamp))
 
     def tick(self, observation: Observation, tick: Tick, tick_ms: float) -> None:
-        """One tick: what was seen, commanded and thought."""
+        """Writes one tick: measurement, ground truth, command and state of the controller."""
         stamp_ns = nanoseconds(observation.time)
         stamp = to_stamp(stamp_ns)
         self._write(interface.PUSHER_POSE, sim.position_message(observation.tip_position, stamp))
@@ -59,10 +59,10 @@ class InProcessRecord:
         for applied in self._plant.take_perturbations():
             happened = to_stamp(nanoseconds(applied.time))
             self._write(interface.PERTURBATION, sim.perturbation_message(applied, happened))
-        self.told(tick, stamp_ns, tick_ms)
+        self.controller_tick(tick, stamp_ns, tick_ms)
 
-    def told(self, tick: Tick, stamp: int, tick_ms: float) -> None:
-        """What the controller sends and tells, with a stamp [ns]."""
+    def controller_tick(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+        """Writes what the controller publishes in a tick, with a stamp [ns]."""
         self._write_command(tick, stamp)
         self._write_state(tick, stamp, tick_ms)
 

@@ -1,4 +1,4 @@
-"""The model of a recorded run: the file in its bag, and what `add_pushes` made of it."""
+"""The model of a recorded run: the file in its bag, and the pushes added during the run."""
 
 from push_bag.file import BagReader
 from push_core.common import InputError
@@ -11,14 +11,14 @@ from push_node.interface import ADDED_PUSHES
 
 
 class RecordedModel:
-    """A model that grows again as it grew while the run was recorded."""
+    """A model that takes in the recorded `add_pushes` up to the tick that is recomputed."""
 
     def __init__(self, model: PushModel, max_points: int, reader: BagReader) -> None:
-        """Reads the pushes that were added.
+        """Reads the added pushes.
 
         Args:
-            model: as it was at first.
-            max_points: that it may grow to.
+            model: before the first added push.
+            max_points: largest number of pushes.
             reader: of the bag.
 
         Raises:
@@ -29,16 +29,16 @@ class RecordedModel:
         self._added = iter([record.message() for record in reader.records(names)])
 
     def grown_to(self, model_id: str) -> PushModel:
-        """The model once it had an id; later ones than that of the call before.
+        """The model with an id; ids must be asked for in the order of the run.
 
         Raises:
-            InputError: it never had.
+            InputError: the model never has this id.
         """
         while self._server.info.model_id != model_id:
             added: AddedPushes | None = next(self._added, None)
             if added is None:
                 raise InputError(
-                    f'cannot compute this run again: it used model {model_id}, but the bag holds '
+                    f'cannot recompute this run: it used model {model_id}, but the bag holds '
                     f'{self._server.info.model_id}; name a model file with --model'
                 )
             self._server.add_pushes(pushes_of(added))

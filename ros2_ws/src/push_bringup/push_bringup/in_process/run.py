@@ -1,4 +1,4 @@
-"""A run in one process with its bag, as `cell --mode inprocess` makes it."""
+"""`cell --mode inprocess`: a recorded run in one process."""
 
 from push_bag.record.recorder import open_bag
 from push_gp.models import PushModel
@@ -16,7 +16,7 @@ def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan
     """Pushes once along the track and records it.
 
     Returns:
-        Why it stopped before the end, empty if it did not.
+        Reason of an early stop, else an empty string.
 
     Raises:
         RunError: the bag cannot be written.

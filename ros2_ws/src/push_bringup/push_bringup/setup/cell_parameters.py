@@ -72,8 +72,8 @@ def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParam
     """The parameters of a recorded run.
 
     Args:
-        text: what `as_yaml` gave then.
-        overrides: what shall differ, by NAME or NODE.NAME.
+        text: the YAML that `as_yaml` made.
+        overrides: changed values, by NAME or NODE.NAME.
 
     Raises:
         InputError: the text is no parameter file, a parameter is unknown, or a value out of range.
@@ -102,7 +102,7 @@ def _from_text(text: str, source: str) -> dict[str, dict[str, Any]]:
         values = {node: _block(blocks, node) for node in NODES}
     except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
         raise InputError(
-            f'{source}: is not readable as a parameter file of blocks such as '
+            f'{source}: is not a parameter file with blocks such as '
             f'/**/{NODES[0]} with ros__parameters'
         ) from error
     if unknown:
@@ -120,7 +120,7 @@ def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dic
     mode = 'lockstep' if request.mode == 'inprocess' else request.mode
     common = {'profile': request.profile, 'mode': mode}
     attachments = [inputs / 'params.yaml', inputs / 'nominal_trajectory.csv']
-    # what the parameters only name
+    # files that the parameters name
     named = (Path(request.model), Path(request.track))
     attachments += [path for path in named if path.suffix and path.is_file()]
     return {
@@ -170,7 +170,7 @@ def _defaults(values: dict[str, dict[str, Any]]) -> dict[str, Any]:
 
 
 def _owners(defaults: Mapping[str, Any], name: str) -> list[tuple[str, str]]:
-    """The nodes that have a parameter: all, or the one that the name begins with."""
+    """Node and key of a parameter, for every node that has it or for the one that is named."""
     node, _, rest = name.partition('.')
     if node in NODES:
         return [(node, rest)]

@@ -1,4 +1,4 @@
-"""What the user asked the cell to do."""
+"""What `cell` is asked to do."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,18 +11,18 @@ class Request:
     Attributes:
         track: eight, square, line or the path of a CSV file.
         speed: of the object's centre [m/s].
-        controller: gp or analytical.
+        controller: its name.
         model: path of a model file, or 'analytical'.
         profile: irb120, ideal or harsh.
         perturb: none, normal or tangential.
         laps: rounds of a closed track.
-        seed: of all that is drawn at random.
+        seed: of everything random.
         mode: realtime, lockstep or inprocess.
         output: folder in which the run's own folder is made.
-        namespace: of the node graph; '' for none.
+        namespace: of the node graph, '' for none.
         preset: tuned or paper, for the controller.
         overrides: further parameters, by name or by node.name.
-        params: parameter file over that of the cell, or None.
+        params: parameter file that overrides that of the cell, or None.
     """
 
     track: str

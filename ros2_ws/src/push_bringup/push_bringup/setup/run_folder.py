@@ -1,4 +1,4 @@
-"""The folder of one run: its name, what goes into it, and never half of it."""
+"""The folder of one run: its name and the files kept with the recording."""
 
 import json
 import os
@@ -39,15 +39,15 @@ def new_run_folder(request: Request, now: datetime) -> Path:
 
 
 def _unused(folder: Path) -> Path:
-    number, found = 1, folder
-    while found.exists():
+    number, unused = 1, folder
+    while unused.exists():
         number += 1
-        found = folder.with_name(f'{folder.name}_{number}')
-    return found
+        unused = folder.with_name(f'{folder.name}_{number}')
+    return unused
 
 
 def write_inputs(request: Request, parameters: CellParameters, plan: Plan, inputs: Path) -> None:
-    """Writes the files that the recorder keeps with the run into a folder."""
+    """Writes the files that the recorder attaches to the bag into a folder."""
     columns = np.column_stack([plan.time, plan.state, plan.input])
     np.savetxt(inputs / PLAN_FILE, columns, '%.9g', ',', header=PLAN_COLUMNS, comments='')
     (inputs / 'params.yaml').write_text(parameters.as_yaml(), encoding='utf-8')
@@ -55,7 +55,7 @@ def write_inputs(request: Request, parameters: CellParameters, plan: Plan, input
 
 
 def keep_logs(inputs: Path, folder: Path) -> None:
-    """Puts what the nodes said beside the bag; all of it or, on a full disk, nothing."""
+    """Copies the output of the nodes to the run folder; on a full disk none of it."""
     logs = sorted(inputs.glob('*.log'))
     if not (logs and folder.is_dir()):
         return
@@ -64,12 +64,12 @@ def keep_logs(inputs: Path, folder: Path) -> None:
         for log in logs:
             shutil.copyfile(log, folder / 'log' / log.name)
     except OSError:
-        # why the run ended has yet to be told, and matters more
+        # the reason of the end is still to be reported, and matters more
         shutil.rmtree(folder / 'log', ignore_errors=True)
 
 
 def facts(request: Request) -> dict[str, str]:
-    """What is needed to repeat the run, beside parameters and model file."""
+    """What is needed to repeat the run, in addition to parameters and model file."""
     return {
         'track': request.track,
         'speed': f'{request.speed:g}',
@@ -90,7 +90,7 @@ def facts(request: Request) -> dict[str, str]:
 
 
 def _model_facts(model: str) -> dict[str, str]:
-    """What names model and training set for good."""
+    """Hashes of model and training set."""
     if model == ANALYTICAL:
         return {'model_hash': ANALYTICAL, 'training_set_hash': ''}
     header, _ = read_sealed(Path(model))
