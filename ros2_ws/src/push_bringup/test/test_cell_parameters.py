@@ -80,9 +80,9 @@ def test_a_parameter_file_comes_over_the_defaults_and_under_the_overrides(tmp_pa
     [
         ('/**/sim_node:\n  ros__parameters: {world.mass: 1.0}', "unknown parameter 'world.mass'"),
         ('/**/robot:\n  ros__parameters: {}', "unknown block '/**/robot'"),
-        ('/**/sim_node: 3', 'is not readable as a parameter file'),
-        ('3', 'is not readable as a parameter file'),
-        ('{', 'is not readable as a parameter file'),
+        ('/**/sim_node: 3', 'is not a parameter file'),
+        ('3', 'is not a parameter file'),
+        ('{', 'is not a parameter file'),
     ],
 )
 def test_a_faulty_parameter_file_is_refused(text: str, fault: str, tmp_path: Path) -> None:

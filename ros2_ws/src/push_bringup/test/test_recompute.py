@@ -209,5 +209,5 @@ def test_a_run_whose_added_pushes_are_not_in_the_bag_is_refused(grown, tmp_path,
     lossy = without(grown, tmp_path / 'lossy', names.index('/added_pushes'))
     assert replay([str(lossy), '--recompute']) == 2
     error = capsys.readouterr().err
-    assert 'cannot compute this run again: it used model' in error
+    assert 'cannot recompute this run: it used model' in error
     assert error.count('\n') == 1
