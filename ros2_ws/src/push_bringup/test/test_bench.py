@@ -164,11 +164,11 @@ def test_real_time_is_a_ratio_to_in_process_and_the_range_of_each_time() -> None
 def test_an_ablation_names_laps_that_were_not_completed_or_never_tracked() -> None:
     laps = ((with_error(1.0),), (with_error(2.0, False),), (with_error(math.inf, False),))
     experiments = [Experiment('eight', 0.08), LINE, Experiment('eight', 0.08, 'normal')]
-    found = {
+    results = {
         'experiments': [experiment_json(each) for each in experiments],
         'rows': [AblationRow('without it', laps).as_json()],
     }
-    table = ablation_rows(finite(found))
+    table = ablation_rows(finite(results))
     assert '| controller | eight 80 mm/s | line 150 mm/s | eight 80 mm/s, normal |' in table
     errors = '1.00 mm | 2.00 mm (0 of 1 laps) | never tracked (0 of 1 laps)'
     assert f'| without it | {errors} | 3 mm/s |' in table

@@ -29,7 +29,7 @@ ROW = {
     'spread_mm': 0.01,
     'paper_mm': 8.5,
 }
-SECTIONS_FOUND = {'table': {'command': 'bench table', 'made': {}, 'found': {'rows': [ROW]}}}
+RESULTS = {'table': {'command': 'bench table', 'made': {}, 'results': {'rows': [ROW]}}}
 
 
 @pytest.fixture(scope='module')
@@ -57,9 +57,9 @@ def test_a_quoted_figure_is_replaced_in_its_format() -> None:
         'a <!-- figure: eight_80_gp -->9.99<!-- / --> mm of <!-- figure: table_laps -->?<!-- / -->'
     )
     expected = text.replace('9.99', '0.33').replace('?', '5')
-    assert quoted(text, SECTIONS_FOUND) == expected
+    assert quoted(text, RESULTS) == expected
     short = '<!-- figure: eight_80_gp .1f --><!-- / -->'
-    assert quoted(short, SECTIONS_FOUND) == '<!-- figure: eight_80_gp .1f -->0.3<!-- / -->'
+    assert quoted(short, RESULTS) == '<!-- figure: eight_80_gp .1f -->0.3<!-- / -->'
 
 
 def test_a_quoted_table_is_replaced() -> None:
@@ -67,8 +67,8 @@ def test_a_quoted_table_is_replaced() -> None:
     row = '| eight 80 mm/s | 0.33 mm | 8.50 mm |'
     head = '|  | gp | paper, gp |\n|---|---|---|'
     expected = f'before\n<!-- table: paper -->\n\n{head}\n{row}\n\n<!-- / -->\nafter'
-    assert quoted(text, SECTIONS_FOUND) == expected
-    assert quoted(expected, SECTIONS_FOUND) == expected
+    assert quoted(text, RESULTS) == expected
+    assert quoted(expected, RESULTS) == expected
 
 
 @pytest.mark.parametrize(
@@ -76,7 +76,7 @@ def test_a_quoted_table_is_replaced() -> None:
 )
 def test_an_unknown_quotation_is_named(quotation: str) -> None:
     with pytest.raises(InputError, match='nine'):
-        quoted(quotation, SECTIONS_FOUND)
+        quoted(quotation, RESULTS)
 
 
 def test_every_section_is_a_command_that_its_benchmark_takes(tmp_path: Path) -> None:

@@ -2,12 +2,18 @@
 
 from push_bringup.bench.benches import BENCHES
 from push_bringup.bench.options import check_positive
-from push_bringup.bench.tables import TABLES, Found, experiment_name, markdown_table, time_ranges
+from push_bringup.bench.tables import (
+    TABLES,
+    BenchResults,
+    experiment_name,
+    markdown_table,
+    time_ranges,
+)
 
 __all__ = [
     'BENCHES',
     'TABLES',
-    'Found',
+    'BenchResults',
     'check_positive',
     'experiment_name',
     'markdown_table',

@@ -13,7 +13,7 @@ from push_bringup.bench.options import (
     add_lap_options,
     check_positive,
     opened_store,
-    print_found,
+    print_results,
 )
 from push_bringup.bench.rows import AblationRow, experiment_json
 from push_bringup.bench.tables import ablation_rows
@@ -74,7 +74,7 @@ def work(arguments: argparse.Namespace) -> None:
         )
         for variant in VARIANTS
     ]
-    found = {
+    results = {
         'experiments': [experiment_json(each) for each in EXPERIMENTS],
         'rows': [row.as_json() for row in rows],
     }
@@ -82,9 +82,9 @@ def work(arguments: argparse.Namespace) -> None:
         # plotly takes a second to import: only a page needs it
         from push_report.page import write_page  # noqa: PLC0415
 
-        lines = ablation_rows(finite(found)).splitlines()
+        lines = ablation_rows(finite(results)).splitlines()
         write_page(arguments.html, 'What each part is worth', lines, ())
-    print_found(arguments, 'ablation', found)
+    print_results(arguments, 'ablation', results)
 
 
 def _jobs(arguments: argparse.Namespace) -> list[LapJob]:

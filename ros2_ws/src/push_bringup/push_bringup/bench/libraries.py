@@ -16,7 +16,7 @@ from push_core.data import PushSet, accuracy, read_pushes
 from push_gp.models import nested_rows
 from tqdm import tqdm
 
-from push_bringup.bench.options import print_found
+from push_bringup.bench.options import print_results
 from push_bringup.bench.rows import LibraryRow
 from push_bringup.comparison import LibraryFit, fit_gpytorch, fit_ours, fit_scikit_learn
 
@@ -65,7 +65,7 @@ def work(arguments: argparse.Namespace) -> None:
     training = pushes.take(order[: arguments.points])
     rest = pushes.take(order[arguments.points :][:HELD_OUT])
     rows = [asdict(row) for row in _rows(training, rest)]
-    print_found(arguments, 'model', {'points': len(training), 'rivals': rows})
+    print_results(arguments, 'model', {'points': len(training), 'rivals': rows})
 
 
 def _rows(training: PushSet, rest: PushSet) -> Iterator[LibraryRow]:

@@ -72,6 +72,6 @@ def check_positive(name: str, value: int) -> None:
         raise InputError(f'{name} is {value}, must be at least 1')
 
 
-def print_found(arguments: argparse.Namespace, bench: str, found: Mapping[str, Any]) -> None:
-    """Prints what a benchmark found: one JSON object with `--json`, else its Markdown table."""
-    sys.stdout.write(json_text(found) if arguments.json else TABLES[bench](finite(found)))
+def print_results(arguments: argparse.Namespace, bench: str, results: Mapping[str, Any]) -> None:
+    """Prints the results of a benchmark: one JSON object with `--json`, else its Markdown table."""
+    sys.stdout.write(json_text(results) if arguments.json else TABLES[bench](finite(results)))

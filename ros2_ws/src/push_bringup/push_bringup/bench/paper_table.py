@@ -15,7 +15,7 @@ from push_bringup.bench.options import (
     add_model,
     check_positive,
     opened_store,
-    print_found,
+    print_results,
 )
 from push_bringup.bench.rows import PaperRow
 from push_bringup.experiment import PAPER_MM, LapJob, push_all
@@ -75,7 +75,7 @@ def work(arguments: argparse.Namespace) -> int:
         from push_bringup.bench.paper_page import paper_page  # noqa: PLC0415
 
         write_atomically(arguments.html, paper_page(rows).encode())
-    print_found(arguments, 'table', {'rows': [row.as_json() for row in rows]})
+    print_results(arguments, 'table', {'rows': [row.as_json() for row in rows]})
     return 0 if all(row.completed == len(row.laps) for row in rows) else 1
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from push_core.common import Parser, RunError, run_command
 from tqdm import tqdm
 
-from push_bringup.bench.options import add_controllers, check_positive, print_found
+from push_bringup.bench.options import add_controllers, check_positive, print_results
 from push_bringup.bench.rows import RealTimeRow, times_json
 from push_bringup.experiment import PAPER_MM, Experiment, LapJob, LapStore, push_all
 from push_bringup.setup import code_key, model_for
@@ -66,11 +66,11 @@ def work(arguments: argparse.Namespace) -> int:
         RealTimeRow(*case, tuple(next(errors) for _ in runs), tuple(next(scores) for _ in runs))
         for case in cases
     ]
-    found = {
+    results = {
         'rows': [row.as_json() for row in rows],
         'times': [times_json(controller, rows) for controller in arguments.controllers],
     }
-    print_found(arguments, 'realtime', found)
+    print_results(arguments, 'realtime', results)
     return 0 if all(row.completed == arguments.runs for row in rows) else 1
 
 

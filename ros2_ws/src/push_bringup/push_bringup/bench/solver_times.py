@@ -13,7 +13,7 @@ from push_core.geometry import Array
 from push_mpc.qp import NX, Problem
 from tqdm import tqdm
 
-from push_bringup.bench.options import add_controller, print_found
+from push_bringup.bench.options import add_controller, print_results
 from push_bringup.bench.rows import SolverRow
 from push_bringup.comparison import IN_SI_UNITS, SOLVERS, Solver, exact, recorded_problems
 from push_bringup.setup import model_for
@@ -53,12 +53,12 @@ def work(arguments: argparse.Namespace) -> int:
     model = model_for(arguments.controller, arguments.model)
     ticks = recorded_problems(arguments.controller, model, arguments.seed)
     rows = list(_rows(ticks))
-    found = {
+    results = {
         'controller': arguments.controller,
         'ticks': len(ticks),
         'solvers': [row.as_json() for row in rows],
     }
-    print_found(arguments, 'timing', found)
+    print_results(arguments, 'timing', results)
     if arguments.html:
         # plotly takes a second to import: only a page needs it
         from push_bringup.bench.solver_times_page import solver_times_page  # noqa: PLC0415

@@ -54,9 +54,9 @@ def work(arguments: argparse.Namespace) -> int:
     check_positive('--runs', arguments.runs)
     runs = tqdm(range(arguments.runs), 'stopping', unit=' runs', disable=None)
     seconds = [stopping_time() for _ in runs]
-    found = {'runs': len(seconds), 'median_s': median(seconds), 'max_s': max(seconds)}
+    results = {'runs': len(seconds), 'median_s': median(seconds), 'max_s': max(seconds)}
     if arguments.json:
-        sys.stdout.write(json_text(found))
+        sys.stdout.write(json_text(results))
     else:
         sys.stdout.write(text(seconds))
     return 0

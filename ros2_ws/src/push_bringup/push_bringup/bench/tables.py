@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
-Found: TypeAlias = Mapping[str, Any]
+BenchResults: TypeAlias = Mapping[str, Any]
 """The JSON object of a benchmark."""
 
 PAPER_KEYS = ('median_mm', 'truth_median_mm', 'spread_mm', 'paper_mm')
@@ -16,7 +16,7 @@ def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> st
     return '\n'.join(lines) + '\n'
 
 
-def paper_rows(found: Found) -> str:
+def paper_rows(results: BenchResults) -> str:
     """The table of `bench table`."""
     heads = ('profile', 'track', 'speed', 'perturbation', 'controller', 'laps', 'median')
     return markdown_table(
@@ -29,12 +29,12 @@ def paper_rows(found: Found) -> str:
                 f'{row["completed"]} of {row["seeds"]}',
                 *(_millimetres(row.get(key)) for key in PAPER_KEYS),
             )
-            for row in found['rows']
+            for row in results['rows']
         ),
     )
 
 
-def size_rows(found: Found) -> str:
+def size_rows(results: BenchResults) -> str:
     """The table of `bench data`, and the analytical controller's lap below it."""
     table = markdown_table(
         ('pushes', 'choice', 'mean function', 'completed', 'median', 'quartiles'),
@@ -49,20 +49,20 @@ def size_rows(found: Found) -> str:
                 if row['quartiles_mm']
                 else '–',
             )
-            for row in found['points']
+            for row in results['points']
         ),
     )
-    lap = found['analytical']
+    lap = results['analytical']
     ended = 'completed' if lap['completed'] else lap['stop_reason']
     return f'{table}\nanalytical controller: {_millimetres(lap["mean_mm"])}, {ended}\n'
 
 
-def ablation_rows(found: Found) -> str:
+def ablation_rows(results: BenchResults) -> str:
     """The table of `bench ablation`: median error, and the laps where not all were completed.
 
     The last column is the change of the command from tick to tick in the first experiment.
     """
-    names = [experiment_name(one) for one in found['experiments']]
+    names = [experiment_name(one) for one in results['experiments']]
     return markdown_table(
         ('controller', *names, 'command step'),
         (
@@ -71,7 +71,7 @@ def ablation_rows(found: Found) -> str:
                 *map(_ablation_cell, row['median_mm'], row['completed'], row['seeds']),
                 f'{row["command_step_mm_s"]:.0f} mm/s',
             )
-            for row in found['rows']
+            for row in results['rows']
         ),
     )
 
@@ -81,7 +81,7 @@ def _ablation_cell(error: float | None, completed: int, seeds: int) -> str:
     return text if completed == seeds else f'{text} ({completed} of {seeds} laps)'
 
 
-def solver_rows(found: Found) -> str:
+def solver_rows(results: BenchResults) -> str:
     """The table of `bench timing`."""
     return markdown_table(
         ('solver', 'p50', 'p99', 'p99.9', 'max', 'iterations', 'first input'),
@@ -92,12 +92,12 @@ def solver_rows(found: Found) -> str:
                 row['iterations_max'],
                 f'{row["first_input_error_m_s"]:.1e} m/s',
             )
-            for row in found['solvers']
+            for row in results['solvers']
         ),
     )
 
 
-def real_time_rows(found: Found) -> str:
+def real_time_rows(results: BenchResults) -> str:
     """The table of `bench realtime`."""
     heads = ('track', 'speed', 'perturbation', 'controller', 'laps', 'in process', 'real time')
     return markdown_table(
@@ -112,12 +112,12 @@ def real_time_rows(found: Found) -> str:
                 f'{row["ratio"]:.2f}',
                 row['deadline_misses'],
             )
-            for row in found['rows']
+            for row in results['rows']
         ),
     )
 
 
-def time_ranges(found: Found) -> str:
+def time_ranges(results: BenchResults) -> str:
     """The times of the runs of `bench realtime`: smallest to largest of the runs [ms]."""
     columns = [
         ('solve p50', 'solve_ms', 'p50'),
@@ -132,12 +132,12 @@ def time_ranges(found: Found) -> str:
         ('controller', 'laps', *(head for head, _, _ in columns)),
         (
             (row['controller'], row['runs'], *(_range(row[name][key]) for _, name, key in columns))
-            for row in found['times']
+            for row in results['times']
         ),
     )
 
 
-def library_rows(found: Found) -> str:
+def library_rows(results: BenchResults) -> str:
     """The table of `bench model`."""
     return markdown_table(
         ('library', 'fit', '35 means and Jacobians', 'memory', 'log likelihood', 'NMSE'),
@@ -150,12 +150,12 @@ def library_rows(found: Found) -> str:
                 f'{row["log_likelihood"]:.2f}',
                 f'{row["nmse_push_frame"]:.4f}',
             )
-            for row in found['rivals']
+            for row in results['rivals']
         ),
     )
 
 
-TABLES: Mapping[str, Callable[[Found], str]] = {
+TABLES: Mapping[str, Callable[[BenchResults], str]] = {
     'table': paper_rows,
     'data': size_rows,
     'ablation': ablation_rows,

@@ -22,7 +22,7 @@ from push_bringup.bench.options import (
     add_lap_options,
     check_positive,
     opened_store,
-    print_found,
+    print_results,
 )
 from push_bringup.bench.rows import SizeRow
 from push_bringup.experiment import Experiment, Lap, LapJob, push_all
@@ -96,7 +96,7 @@ def work(arguments: argparse.Namespace) -> None:
         from push_bringup.bench.training_size_page import training_size_page  # noqa: PLC0415
 
         write_atomically(arguments.html, training_size_page(rows, analytical).encode())
-    found = {
+    results = {
         'points': [row.as_json() for row in rows],
         'analytical': {
             'completed': analytical.completed,
@@ -104,7 +104,7 @@ def work(arguments: argparse.Namespace) -> None:
             'mean_mm': analytical.mean_mm,
         },
     }
-    print_found(arguments, 'data', found)
+    print_results(arguments, 'data', results)
 
 
 def _pushes(arguments: argparse.Namespace) -> PushSet:

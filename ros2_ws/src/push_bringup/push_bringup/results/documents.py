@@ -11,7 +11,7 @@ from typing import Any
 
 from push_core.common import InputError
 
-from push_bringup.bench import TABLES, Found, experiment_name, markdown_table, time_ranges
+from push_bringup.bench import TABLES, BenchResults, experiment_name, markdown_table, time_ranges
 from push_bringup.results.figures import Figure, figures
 from push_bringup.results.results_file import Results
 from push_bringup.results.sections import SECTIONS, Section
@@ -70,15 +70,15 @@ def _known(names: Mapping[str, Any], name: str, kind: str) -> Any:
 def _table(name: str, sections: Results) -> str:
     if name in _SHORT_TABLES:
         section, table = _SHORT_TABLES[name]
-        return table(_known(sections, section, 'section')['found'])
+        return table(_known(sections, section, 'section')['results'])
     benches = {section.name: section.bench for section in SECTIONS}
-    return TABLES[_known(benches, name, 'table')](_known(sections, name, 'section')['found'])
+    return TABLES[_known(benches, name, 'table')](_known(sections, name, 'section')['results'])
 
 
-def _paper_summary(found: Found) -> str:
+def _paper_summary(results: BenchResults) -> str:
     """The paper's rows in the profile irb120, one row for each experiment."""
     rows: dict[str, dict[str, Mapping[str, Any]]] = {}
-    for row in found['rows']:
+    for row in results['rows']:
         if row['profile'] == 'irb120':
             rows.setdefault(experiment_name(row), {})[row['controller']] = row
     controllers = list(next(iter(rows.values())))
@@ -93,7 +93,7 @@ def _paper_summary(found: Found) -> str:
 
 
 _SUMMARY = ('median_mm', 'paper_mm')
-_SHORT_TABLES: Mapping[str, tuple[str, Callable[[Found], str]]] = {
+_SHORT_TABLES: Mapping[str, tuple[str, Callable[[BenchResults], str]]] = {
     'paper': ('table', _paper_summary),
     'times': ('real_time', time_ranges),
 }
@@ -112,7 +112,7 @@ def _head(made: Mapping[str, Any]) -> str:
 
 def _section(section: Section, result: Mapping[str, Any], head: Mapping[str, Any]) -> str:
     own = '' if result['made'] == head else f'{_made(result["made"])}\n\n'
-    table = TABLES[section.bench](result['found'])
+    table = TABLES[section.bench](result['results'])
     return f'## {section.title}\n\n{section.text}\n\n`{result["command"]}`\n\n{own}{table}'
 
 

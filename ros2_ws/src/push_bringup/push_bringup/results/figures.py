@@ -15,44 +15,44 @@ def figures(sections: Mapping[str, Mapping[str, Any]]) -> dict[str, Figure]:
     (another profile), `without_delay_prediction_eight_80` (ablation),
     `training_size_200_zero_random`, `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`.
     """
-    found: dict[str, Figure] = {}
+    named: dict[str, Figure] = {}
     for name, section in sections.items():
-        for figure, value in _FIGURES[name](name, section['found']):
+        for figure, value in _FIGURES[name](name, section['results']):
             if value is not None:
-                found[figure] = value
-    return found
+                named[figure] = value
+    return named
 
 
-def _paper_rows(section: str, found: Mapping[str, Any]) -> Named:
-    yield f'{section}_laps', sum(row['seeds'] for row in found['rows'])
-    yield f'{section}_completed', sum(row['completed'] for row in found['rows'])
-    for row in found['rows']:
+def _paper_rows(section: str, results: Mapping[str, Any]) -> Named:
+    yield f'{section}_laps', sum(row['seeds'] for row in results['rows'])
+    yield f'{section}_completed', sum(row['completed'] for row in results['rows'])
+    for row in results['rows']:
         prefix = '' if row['profile'] == 'irb120' else f'{row["profile"]}_'
         yield f'{prefix}{_experiment(row)}_{row["controller"]}', row['median_mm']
 
 
-def _sizes(section: str, found: Mapping[str, Any]) -> Named:
-    for row in found['points']:
+def _sizes(section: str, results: Mapping[str, Any]) -> Named:
+    for row in results['points']:
         name = f'{section}_{row["n"]}_{row["mean_function"]}_{row["choice"]}'
         yield name, row['median_mm']
 
 
-def _ablation(_section: str, found: Mapping[str, Any]) -> Named:
-    for row in found['rows']:
+def _ablation(_section: str, results: Mapping[str, Any]) -> Named:
+    for row in results['rows']:
         variant = _word(row['variant'])
         yield f'{variant}_command_step', row['command_step_mm_s']
-        for experiment, error in zip(found['experiments'], row['median_mm'], strict=True):
+        for experiment, error in zip(results['experiments'], row['median_mm'], strict=True):
             yield f'{variant}_{_experiment(experiment)}', error
 
 
-def _solvers(section: str, found: Mapping[str, Any]) -> Named:
-    for row in found['solvers']:
+def _solvers(section: str, results: Mapping[str, Any]) -> Named:
+    for row in results['solvers']:
         for key in ('p50', 'p99', 'max'):
             yield f'{section}_{_word(row["name"])}_{key}', row[f'{key}_ms']
 
 
-def _real_time(section: str, found: Mapping[str, Any]) -> Named:
-    rows = found['rows']
+def _real_time(section: str, results: Mapping[str, Any]) -> Named:
+    rows = results['rows']
     for row in rows:
         yield f'{section}_{_experiment(row)}_{row["controller"]}', row['real_time_mm']
     yield f'{section}_laps', sum(row['runs'] for row in rows)

@@ -1,4 +1,4 @@
-"""`bench results`: runs every benchmark of the controllers and publishes what they found."""
+"""`bench results`: runs every benchmark of the controllers and publishes their results."""
 
 import argparse
 import contextlib
@@ -73,11 +73,11 @@ def work(arguments: argparse.Namespace) -> None:
     if arguments.measured is not None and not arguments.measured.is_file():
         raise InputError(f'{arguments.measured}: no such file')
     path = arguments.output.with_suffix('.json')
-    results = dict(read_results(path)) if path.is_file() or arguments.write else {}
+    sections = dict(read_results(path)) if path.is_file() or arguments.write else {}
     for section in [] if arguments.write else chosen(arguments):
         sys.stderr.write(f'{section.title}\n')
-        results[section.name] = result_of(section, arguments)
-        write_results(path, results)
+        sections[section.name] = result_of(section, arguments)
+        write_results(path, sections)
     write_documents(arguments.output)
 
 
@@ -130,7 +130,7 @@ def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]
     return {
         'command': ' '.join(('ros2 run push_bringup bench', section.bench, *words)),
         'made': provenance(),
-        'found': json.loads(printed.getvalue()),
+        'results': json.loads(printed.getvalue()),
     }
 
 

@@ -1,4 +1,4 @@
-"""results.json: what each benchmark found, with what made it."""
+"""results.json: the results of each benchmark, with what made it."""
 
 import json
 import platform
@@ -13,7 +13,7 @@ from push_bringup.results.figures import figures
 from push_bringup.setup import git_revision, processor, source_revision, versions
 
 Results: TypeAlias = Mapping[str, Mapping[str, Any]]
-"""Name of a section, to its `command`, `made` (see `provenance`) and `found` (its JSON object)."""
+"""Name of a section, to its `command`, `made` (see `provenance`) and `results` (JSON object)."""
 
 
 def read_results(path: Path) -> Results:
