@@ -24,7 +24,7 @@ matrix:  ## demo and tests on every Python found, in clones of their own (PYTHON
 bench: setup  ## the paper's experiments in process, beside the paper's numbers (about five minutes)
 	@scripts/in_env ros2 run push_bringup bench table
 
-lint: setup  ## check style, types, imports, shell scripts and the Dockerfile
+lint: setup  ## check style, types, imports, shell scripts, the Dockerfile, compose.yaml and the workflow
 	@scripts/in_env ruff check .
 	@scripts/in_env ruff format --check .
 	@scripts/in_env mypy
@@ -32,6 +32,9 @@ lint: setup  ## check style, types, imports, shell scripts and the Dockerfile
 	@scripts/in_env lint-imports --no-logo --no-cache
 	@scripts/in_env shellcheck --external-sources --check-sourced $(SHELL_SCRIPTS)
 	@scripts/in_env hadolint docker/Dockerfile
+	@scripts/in_env yamllint --strict .
+	@scripts/in_env check-jsonschema --builtin-schema vendor.compose-spec docker/compose.yaml
+	@scripts/in_env check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/ci.yml
 
 setup:  ## set up .venv and build the workspace (PYTHON=python3.12 picks the interpreter, EXTRA=bench adds libraries to compare with, EXTRA=parquet pyarrow)
 	@PYTHON='$(PYTHON)' EXTRA='$(EXTRA)' scripts/setup.sh

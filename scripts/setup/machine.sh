@@ -69,13 +69,13 @@ find_python() {
 serves() {
   case $ros in
     wheels) case $(python_version "$1") in 3.1[0-3]) ;; *) return 1 ;; esac ;;
-    *) "$1" -c 'import rclpy' 2> /dev/null ;;
+    *) "$1" -c 'from rclpy.experimental import EventsExecutor' 2> /dev/null ;;
   esac
 }
 
 wanted_python() {
   case $ros in
     wheels) echo 'Python 3.10, 3.11, 3.12 or 3.13 is needed' ;;
-    *) echo "a Python that imports the rclpy of $ros is needed" ;;
+    *) echo "a Python that imports the rclpy of $ros, 7.1.4 or newer, is needed" ;;
   esac
 }

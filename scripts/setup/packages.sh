@@ -1,21 +1,27 @@
 # shellcheck shell=bash
 # The virtual environment. Each finished step leaves a stamp with the key of what was asked for, so
-# that an interrupted set-up goes on where it stopped and a changed lock starts a fresh environment.
+# that an interrupted set-up goes on where it stopped. A changed lock starts a fresh environment, but
+# that of the tools of tests and lint, which is installed over the one before.
 
 readonly STAMPS=$root/.venv/.stamps
 
 # key_of_environment: changes when the environment has to be made anew.
 key_of_environment() {
-  { printf '%s\n' "$ros" "$root"; cat "$root"/requirements/*.txt "$scripts"/setup/*.py; } | sha256sum
+  { printf '%s\n' "$ros" "$root"; cat "$root"/requirements/{ros,run}.txt "$scripts"/setup/*.py; } | sha256sum
 }
 
 stamp() {
-  printf '%s\n' "$environment_key" > "$STAMPS/$1.new"
+  key_of "$1" > "$STAMPS/$1.new"
   mv "$STAMPS/$1.new" "$STAMPS/$1"
 }
 
 is_stamped() {
-  [ "$(cat "$STAMPS/$1" 2> /dev/null)" = "$environment_key" ]
+  [ "$(cat "$STAMPS/$1" 2> /dev/null)" = "$(key_of "$1")" ]
+}
+
+# key_of STAMP
+key_of() {
+  if [ "$1" = dev ]; then sha256sum < "$root/requirements/dev.txt"; else printf '%s\n' "$environment_key"; fi
 }
 
 # has_interpreter: whether the environment's Python is still the one that it was made with.
