@@ -86,7 +86,14 @@ def test_a_bad_row_is_refused_with_its_line(row: str, fault: str, tmp_path: Path
             'x0_m,y0_m\n1,2\n',
             'column p_y_m, beta_rad, dx_m, dy_m, dtheta_rad, distance_m is missing',
         ),
-        (f'{HEADER},mass\n{GOOD_ROW},1\n', "unknown column 'mass'"),
+        (f'{GOOD_ROW}\n', 'names no columns; the first line must be p_y_m,beta_rad'),
+        (f'{HEADER}\n{GOOD_ROW.replace("0.004", "4_0e-4")}\n', "'4_0e-4', not a number"),
+        (f'{HEADER}\n34.6,1.5,0.003,0.0001,-0.02,0.004\n', 'p_y_m looks like millimetres'),
+        (f'{HEADER}\n0.01,87,0.003,0.0001,-0.02,0.004\n', 'beta_rad looks like degrees'),
+        (f'{HEADER}\n0.01,-0.4,0.003,0.0001,-0.02,0.004\n', 'from the inward normal'),
+        (f'{HEADER}\n0.01,1.5,3.1,0.1,-0.02,0.004\n', 'dx_m and dy_m look like millimetres'),
+        (f'{HEADER}\n0.01,1.5,0.003,0.0001,-20,0.004\n', 'dtheta_rad looks like degrees'),
+        (f'{HEADER}\n0.01,1.5,0.003,0.0001,-0.02,4\n', 'distance_m looks like millimetres'),
         (f'{HEADER},dx_m\n{GOOD_ROW},1\n', 'column dx_m is there twice'),
         (f'{HEADER},subset_5\n{GOOD_ROW},2\n', 'subset_5 is 2, must be 0 or 1'),
         (f'{HEADER}\n0.01,1.5,0.003,0.0001,-0.02,0\n', 'must be between 0 and 1 m'),
@@ -97,6 +104,35 @@ def test_a_bad_file_is_refused_with_its_fault(
     text: str | bytes, fault: str, tmp_path: Path
 ) -> None:
     assert fault in refusal(tmp_path, text)
+
+
+def with_semicolons(text: str) -> str:
+    return text.replace(',', ';')
+
+
+FORMS = {
+    'comment': f'# pushes of 2026\n{HEADER}\n{GOOD_ROW}\n',
+    'names behind a hash': f'# {HEADER}\n{GOOD_ROW}\n',
+    'semicolons': with_semicolons(f'{HEADER}\n{GOOD_ROW}\n'),
+    'decimal comma': with_semicolons(f'{HEADER}\n{GOOD_ROW}\n').replace('.', ','),
+    'tabs': f'{HEADER}\n{GOOD_ROW}\n'.replace(',', '\t'),
+    'row index': f',{HEADER}\n0,{GOOD_ROW}\n',
+    'further column': f'{HEADER},note\n{GOOD_ROW},first try\n',
+    'capitals': f'{HEADER.upper()}\n{GOOD_ROW}\n',
+    'line of blanks': f'{HEADER}\n{GOOD_ROW}\n   \n',
+    'separator at the end': f'{HEADER},\n{GOOD_ROW},\n',
+    'quotes': ','.join(f'"{name}"' for name in HEADER.split(',')) + f'\n{GOOD_ROW}\n',
+    'blanks': f'{HEADER}\n{GOOD_ROW}\n'.replace(',', ' , '),
+    'line feeds of a Mac': f'{HEADER}\r{GOOD_ROW}\r',
+}
+
+
+@pytest.mark.parametrize('form', FORMS)
+def test_what_other_programs_write_is_read(form: str, tmp_path: Path) -> None:
+    (tmp_path / 'a.csv').write_text(FORMS[form], encoding='utf-8', newline='')
+    (tmp_path / 'plain.csv').write_text(f'{HEADER}\n{GOOD_ROW}\n', encoding='utf-8')
+    read, plain = read_pushes(tmp_path / 'a.csv'), read_pushes(tmp_path / 'plain.csv')
+    assert read.sha256() == plain.sha256()
 
 
 def test_a_missing_file_and_a_folder_are_refused(tmp_path: Path) -> None:

@@ -1,14 +1,14 @@
 """Tables of numbers as CSV: a line of column names, then rows; every fault names its line."""
 
-import csv
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from push_core.common import InputError
+from push_core.data.csv_text import CsvText, number_of, read_csv_text
 from push_core.geometry import Array
 
 
@@ -17,7 +17,7 @@ class CsvTable:
     """A table of finite numbers.
 
     Attributes:
-        path: where it came from.
+        path: of the file.
         lines: line number of each row in the file.
         columns: name to values (n,), n >= 1.
     """
@@ -31,81 +31,73 @@ class CsvTable:
         return f'{self.path}, line {self.lines[row]}'
 
 
-def column_names(path: Path) -> tuple[str, ...]:
-    """The names of the first line; none where the file is empty.
+def column_names(path: Path, known: Sequence[str]) -> tuple[str, ...]:
+    """The names of the columns, in lower case; none where the file has no line of names.
 
     Raises:
         InputError: the file cannot be read.
     """
-    _, names = next(_lines(path), (0, []))
-    return tuple(name.strip() for name in names)
+    return tuple(read_csv_text(path, known).names)
 
 
 def read_table(
-    path: Path, content: str, wanted: Sequence[str], prefix: str | None = None
+    path: Path, content: str, columns: Sequence[str], prefix: str | None = None
 ) -> CsvTable:
     """Reads a table.
 
     Args:
-        path: a CSV file with the wanted columns in any order.
+        path: a CSV file with these columns in any order; others are ignored.
         content: what a row is, in the plural, for the messages.
-        wanted: columns that must be there.
-        prefix: of names of further columns that may be there; none without it.
+        columns: that must be there.
+        prefix: of names of further columns that are read where they are there.
 
     Raises:
         InputError: one line that names the file, the line and the fault.
     """
-    header, *rows = list(_lines(path)) or [(0, [])]
-    names = [name.strip() for name in header[1]]
-    _check_names(path, names, wanted, prefix)
-    if not rows:
+    text = read_csv_text(path, columns)
+    places = _places(text, columns, prefix)
+    if not text.rows:
         raise InputError(f'{path}: holds no {content}')
-    numbers = np.array([_numbers(path, line, names, cells) for line, cells in rows])
-    lines = [line for line, _ in rows]
-    return CsvTable(path, lines, dict(zip(names, numbers.T, strict=True)))
+    numbers = np.array([_numbers(text, line, cells, places) for line, cells in text.rows])
+    lines = [line for line, _ in text.rows]
+    return CsvTable(path, lines, dict(zip(places, numbers.T, strict=True)))
 
 
-def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
-    try:
-        with path.open(encoding='utf-8-sig', newline='') as file:
-            reader = csv.reader(file)
-            yield from ((reader.line_num, cells) for cells in reader if cells)
-    except OSError as error:
-        raise InputError(f'cannot read {path}: {error.strerror}') from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise InputError(f'{path}: is not a CSV text file ({error})') from error
-
-
-def _check_names(
-    path: Path, names: Sequence[str], wanted: Sequence[str], prefix: str | None
-) -> None:
-    if not names:
-        raise InputError(f'{path}: is empty')
-    missing = [name for name in wanted if name not in names]
+def _places(text: CsvText, columns: Sequence[str], prefix: str | None) -> dict[str, int]:
+    """Where each column is that is to be read."""
+    if not text.names and not text.rows:
+        raise InputError(f'{text.path}: is empty')
+    where = f'{text.path}, line {text.names_line}'
+    if not text.names:
+        raise InputError(f'{where}: names no columns; the first line must be {",".join(columns)}')
+    missing = [name for name in columns if name not in text.names]
     if missing:
         raise InputError(
-            f'{path}, line 1: column {", ".join(missing)} is missing; '
-            f'the columns are {",".join(wanted)}'
+            f'{where}: column {", ".join(missing)} is missing; the columns are {",".join(columns)}'
         )
-    for name in names:
-        if name not in wanted and not (prefix and name.startswith(prefix)):
-            raise InputError(f'{path}, line 1: unknown column {name[:40]!r}')
-        if names.count(name) > 1:
-            raise InputError(f'{path}, line 1: column {name[:40]} is there twice')
+    read = [name for name in text.names if name in columns or (prefix and name.startswith(prefix))]
+    for name in read:
+        if text.names.count(name) > 1:
+            raise InputError(f'{where}: column {name[:40]} is there twice')
+    return {name: text.names.index(name) for name in read}
 
 
-def _numbers(path: Path, line: int, names: Sequence[str], cells: Sequence[str]) -> list[float]:
-    if len(cells) != len(names):
-        raise InputError(f'{path}, line {line}: has {len(cells)} values, not {len(names)}')
+def _numbers(
+    text: CsvText, line: int, cells: Sequence[str], places: Mapping[str, int]
+) -> list[float]:
+    count = len(text.names)
+    # a separator at the end of a line makes one more cell, which is empty
+    if len(cells) < count or any(cells[count:]):
+        raise InputError(f'{text.path}, line {line}: has {len(cells)} values, not {count}')
     return [
-        _number(f'{path}, line {line}: {name}', cell)
-        for name, cell in zip(names, cells, strict=True)
+        _number(f'{text.path}, line {line}: {name}', cells[place])
+        for name, place in places.items()
     ]
 
 
 def _number(place: str, cell: str) -> float:
     try:
-        number = float(cell)
+        number = number_of(cell)
     except ValueError:
         raise InputError(f'{place} is {cell[:40]!r}, not a number') from None
     if not math.isfinite(number):

@@ -29,7 +29,7 @@ def holds_long_pushes(path: Path) -> bool:
     Raises:
         InputError: it cannot be read.
     """
-    return set(COLUMNS) <= set(column_names(path))
+    return set(COLUMNS) <= set(column_names(path, COLUMNS))
 
 
 def read_long_pushes(path: Path, slider: Slider | None = None) -> LongPushes:

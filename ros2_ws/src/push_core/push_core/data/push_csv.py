@@ -2,6 +2,7 @@
 
 import csv
 import io
+import math
 from pathlib import Path
 
 import numpy as np
@@ -57,7 +58,7 @@ def _push_set(table: CsvTable) -> PushSet:
     displacement = np.column_stack((dx, dy, dtheta))
     fault = push_fault(p_y, beta, displacement)
     if fault:
-        raise InputError(f'{table.place(fault[0])}: {fault[1]}')
+        raise InputError(f'{table.place(fault[0])}: {fault[1]}{_hint(table)}')
     _check_distances(table, distance)
     subsets = {
         name: _membership(table, name) for name in table.columns if name.startswith(SUBSET_PREFIX)
@@ -65,11 +66,39 @@ def _push_set(table: CsvTable) -> PushSet:
     return PushSet(p_y, beta, displacement, float(distance[0]), subsets)
 
 
+def _hint(table: CsvTable) -> str:
+    """The unit or convention that values outside their domain suggest, empty without one."""
+    largest = {name: float(np.abs(table.columns[name]).max()) for name in COLUMNS}
+    beta = table.columns['beta_rad']
+    hints = (
+        (0.5 < largest['p_y_m'] <= 5.0, 'p_y_m looks like centimetres: divide by 100'),
+        (5.0 < largest['p_y_m'] < 100.0, 'p_y_m looks like millimetres: divide by 1000'),
+        (math.tau < largest['beta_rad'] < 361.0, 'beta_rad looks like degrees: divide by 57.3'),
+        (
+            beta.min() < 0.0 and largest['beta_rad'] <= 0.5 * math.pi,
+            'beta_rad looks measured from the inward normal: beta_rad = pi/2 - angle',
+        ),
+        (
+            1.0 < max(largest['dx_m'], largest['dy_m']) < 1000.0,
+            'dx_m and dy_m look like millimetres: divide by 1000',
+        ),
+        (
+            math.pi < largest['dtheta_rad'] < 361.0,
+            'dtheta_rad looks like degrees: divide by 57.3',
+        ),
+        (
+            1.0 <= largest['distance_m'] < 1000.0,
+            'distance_m looks like millimetres: divide by 1000',
+        ),
+    )
+    return next((f'; {text}' for holds, text in hints if holds), '')
+
+
 def _check_distances(table: CsvTable, distance: Array) -> None:
     try:
         check_distance(float(distance[0]))
     except InputError as error:
-        raise InputError(f'{table.place(0)}: {error}') from None
+        raise InputError(f'{table.place(0)}: {error}{_hint(table)}') from None
     other = np.flatnonzero(distance != distance[0])
     if other.size:
         raise InputError(
