@@ -1,5 +1,6 @@
 import math
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 
 import numpy as np
@@ -17,11 +18,12 @@ from push_sim.collect.collector import Collector
 from push_sim.collect.push_design import PushDesign
 from push_sim.collect.push_sampling import uniform
 from push_sim.measured.replay import replay_long_pushes, replay_windows
-from push_sim.measured.run_windows import INTERVAL, Windows
+from push_sim.measured.run_windows import INTERVAL
 from push_sim.measured.tip_replay import modelled_tip
 from push_sim.plant.plant import Plant
-from push_sim.settings.plant_settings import SimSettings, WorldSettings
+from push_sim.settings.plant_settings import SimSettings
 from push_sim.settings.profiles import profile
+from push_sim.settings.world_settings import WorldSettings
 from push_sim.worlds.common.world import World
 from push_sim.worlds.engines import ENGINES, make_world
 
@@ -99,7 +101,8 @@ def _write_table(path: Path, names: tuple[str, ...], table: Array) -> None:
 
 def _short_pushes(plant: SimSettings, count: int) -> PushSet:
     slider, design = Slider(), PushDesign()
-    with Collector(plant, slider, design, uniform(design, slider.side, count)) as collector:
+    sampler = uniform(design, slider.side, count)
+    with closing(Collector(plant, slider, design, sampler)) as collector:
         rows = np.array([collector.push(3, number) for number in range(count)])
     return PushSet(rows[:, 0], rows[:, 1], rows[:, 2:], design.distance)
 
@@ -132,8 +135,7 @@ def _run(plant: SimSettings) -> Array:
     poses = [still[0]]
     for first in range(0, len(path) - 1, _WINDOW_POINTS):
         tip = path[first : first + _WINDOW_POINTS + 1]
-        cut = Windows(poses[-1][None], poses[-1][None], tip[None])
-        poses.append(replay_windows(plant.world, Slider(), cut)[0])
+        poses.append(replay_windows(plant.world, Slider(), poses[-1][None], tip[None])[0])
     marks = np.arange(len(poses)) * _WINDOW_POINTS * INTERVAL
     pose = np.column_stack([np.interp(time, marks, axis) for axis in np.array(poses).T])
     return np.column_stack((time, pose, commanded, sensed))

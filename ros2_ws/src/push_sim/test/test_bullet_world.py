@@ -5,7 +5,7 @@ import pytest
 from push_core.geometry.frames import to_body
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings.world_settings import WorldSettings
 from push_sim.worlds.bullet.bullet_world import BulletWorld
 
 ORIGIN = np.zeros(3)

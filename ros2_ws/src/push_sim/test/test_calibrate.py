@@ -13,8 +13,8 @@ from push_sim.calibration.output import calibration_json, calibration_table, ros
 from push_sim.commands.calibrate import main
 from push_sim.fitting.bootstrap import bootstrap_deviation
 from push_sim.measured.measured_data import read_measured_data, split_measurements
-from push_sim.settings.plant_settings import WorldSettings
 from push_sim.settings.profiles import profile
+from push_sim.settings.world_settings import WorldSettings
 
 # the engine without inertia is as good a plant to be found again, and ten times faster
 START = replace(profile('irb120'), world=WorldSettings(engine='quasi_static'))

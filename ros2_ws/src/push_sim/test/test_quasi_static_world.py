@@ -7,7 +7,7 @@ import pytest
 from push_core.geometry.frames import to_body, to_world
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings.world_settings import WorldSettings
 from push_sim.worlds.quasi_static.quasi_static_world import QuasiStaticWorld
 from scipy.integrate import solve_ivp
 

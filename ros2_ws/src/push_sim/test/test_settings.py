@@ -4,8 +4,8 @@ from push_core.common.settings import flatten, replaced
 from push_core.physics.actuator import ACTUATORS
 from push_sim.node.node_settings import NodeSettings, node_settings
 from push_sim.node.sim_node import main
-from push_sim.settings.plant_settings import ENGINE_NAMES
 from push_sim.settings.profiles import PROFILES, profile
+from push_sim.settings.world_settings import ENGINE_NAMES
 from push_sim.worlds.engines import ENGINES
 
 

@@ -7,7 +7,7 @@ import pytest
 from push_core.common.errors import InputError
 from push_core.physics.limit_surface import GRAVITY, uniform_pressure_radius
 from push_core.physics.slider import Slider
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings.world_settings import WorldSettings
 from push_sim.worlds.bullet.bullet_world import BulletWorld
 from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.common.support import feet, friction_moment_radius, loads, pressure_radius

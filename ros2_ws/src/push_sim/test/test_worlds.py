@@ -7,7 +7,7 @@ import pytest
 from push_core.common.errors import InputError
 from push_core.geometry.frames import rotation, to_body, to_world
 from push_core.physics.limit_surface import GRAVITY
-from push_sim.settings.plant_settings import WorldSettings
+from push_sim.settings.world_settings import WorldSettings
 from push_sim.worlds.common.world import World
 from push_sim.worlds.engines import make_world
 

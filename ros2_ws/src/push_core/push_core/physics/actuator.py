@@ -1,8 +1,8 @@
-"""The robot between command and tip: dead time, first-order lag, speed and acceleration limits.
+"""Model of the robot: dead time, first-order lag, limits of speed and acceleration.
 
-The measured runs of the real cell lag by 110 ms; 60 ms of dead time and a 49 ms lag reproduce the
-undisturbed one to 0.2 mm rms, as `push_sim calibrate` finds. The plant and the controller's
-predictor use this same class.
+The real robot lags by 110 ms. 60 ms of dead time and 49 ms of lag reproduce its unperturbed
+measured run to 0.2 mm rms (`push_sim calibrate`). The plant and the controller's predictor both
+use this class.
 """
 
 import math
@@ -49,10 +49,10 @@ ACTUATORS = {
 
 
 class Actuator:
-    """Turns timed velocity commands into the velocity of the tip.
+    """Computes the velocity of the tip from timed velocity commands.
 
-    It is advanced a thousand times a second in the plant and a dozen times a tick in the
-    predictor; plain numbers are several times faster there than arrays of two.
+    It uses plain numbers, several times faster than arrays of two: the plant advances it 1000
+    times a second, the predictor a dozen times a tick.
     """
 
     def __init__(self, settings: ActuatorSettings) -> None:
@@ -67,20 +67,20 @@ class Actuator:
         return np.array(self._velocity)
 
     def reset(self) -> None:
-        """At rest, no command under way."""
+        """Puts the tip at rest and drops all commands."""
         self._queue.clear()
         self._target = self._velocity = (0.0, 0.0)
 
     def command(self, velocity: Array, arrival: float) -> None:
         """Accepts a velocity (2,) [m/s] that arrived at a time [s], not before the last one."""
-        wanted = (float(velocity[0]), float(velocity[1]))
+        target = (float(velocity[0]), float(velocity[1]))
         acts_at = arrival + self.settings.dead_time
-        self._queue.append((acts_at, _shortened(wanted, self.settings.speed_limit)))
+        self._queue.append((acts_at, _shortened(target, self.settings.speed_limit)))
 
     def advance(self, now: float, duration: float) -> Pair:
-        """Moves on by `duration` [s] from `now` [s]; returns the mean velocity over it [m/s].
+        """Advances from `now` [s] by `duration` [s]; returns the mean velocity [m/s].
 
-        A command that begins to act in between does so at its own instant.
+        A command that begins to act within the duration does so at its exact time.
         """
         moved_x = moved_y = 0.0
         start, end = now, now + duration
@@ -97,7 +97,7 @@ class Actuator:
         return (moved_x + x * (end - start)) / duration, (moved_y + y * (end - start)) / duration
 
     def brake(self, duration: float) -> Pair:
-        """Drops all commands and slows down for `duration` [s]; returns the mean velocity."""
+        """Drops all commands and brakes for `duration` [s]; returns the mean velocity [m/s]."""
         self._queue.clear()
         self._target = (0.0, 0.0)
         x, y = self._velocity
@@ -106,13 +106,13 @@ class Actuator:
         return x - 0.5 * lost[0], y - 0.5 * lost[1]
 
     def copy_state(self, other: 'Actuator') -> None:
-        """Takes over velocity, target and queue of another actuator."""
+        """Copies velocity, target and queue of another actuator."""
         self._velocity = other._velocity
         self._target = other._target
         self._queue = other._queue.copy()
 
     def _approach(self, duration: float) -> Pair:
-        """Approaches the target for `duration` [s]; returns the mean velocity."""
+        """Approaches the target velocity for `duration` [s]; returns the mean velocity [m/s]."""
         (x, y), (target_x, target_y) = self._velocity, self._target
         lag = self.settings.lag
         reached = 1.0 - math.exp(-duration / lag) if lag > 0.0 else 1.0
@@ -121,12 +121,12 @@ class Actuator:
         self._velocity = (x + allowed[0], y + allowed[1])
         if allowed is not change:
             return x + 0.5 * allowed[0], y + 0.5 * allowed[1]
-        part = lag / duration
-        return target_x - part * change[0], target_y - part * change[1]
+        ratio = lag / duration
+        return target_x - ratio * change[0], target_y - ratio * change[1]
 
 
 def _shortened(vector: Pair, length: float) -> Pair:
-    """The vector itself, or one of the same direction and the given length."""
+    """The vector, scaled down to a length if it is longer."""
     norm = math.hypot(*vector)
     if norm <= length:
         return vector

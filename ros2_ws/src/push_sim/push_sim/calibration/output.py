@@ -1,31 +1,15 @@
 """Output of `calibrate`: its JSON object, its table and its ROS parameter file."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any
 
 from push_sim.calibration.calibration import FittedParameter, PlantCalibration
 from push_sim.validation import validation_json
 
+_PARAMETER_KEYS = ('value', 'deviation', 'unit', 'before')
 _NODE_PARAMETERS = {'sim_node': ('world', 'actuator'), 'mpc_node': ('actuator',)}
 """Parameter groups of each node; the controller predicts with the plant's actuator."""
-
-
-@dataclass(frozen=True)
-class Requirement:
-    """A limit on a figure of the plant.
-
-    Attributes:
-        name: name of the figure.
-        limit: largest acceptable value.
-        fitted: value on the part that was fitted; None without such measurements.
-        kept: value on the rest; None without such measurements.
-    """
-
-    name: str
-    limit: float
-    fitted: float | None
-    kept: float | None
 
 
 def calibration_json(result: PlantCalibration, seed: int, data_hash: str) -> dict[str, Any]:
@@ -41,28 +25,26 @@ def calibration_json(result: PlantCalibration, seed: int, data_hash: str) -> dic
         'seed': seed,
         'data_sha256': data_hash,
         'parameters': {
-            each.name: {
-                'value': each.value,
-                'deviation': each.deviation,
-                'unit': each.unit,
-                'before': each.before,
-            }
+            each.name: {name: getattr(each, name) for name in _PARAMETER_KEYS}
             for each in result.parameters
         },
         'stiffness': _stiffness_json(result),
-        'bars': [asdict(each) for each in _requirements(fitted, kept)],
+        'bars': _requirements(fitted, kept),
         'fitted': fitted,
         'kept': kept,
     }
 
 
-def _requirements(fitted: dict[str, Any], kept: dict[str, Any]) -> Iterator[Requirement]:
-    """The required figures on both parts; of several files the worst."""
-    parts = fitted, kept
-    yield Requirement('4 mm pushes, mean NMSE in the push frame', 0.070, *map(_short_nmse, parts))
-    for unit, limit in (('mm', 3.8), ('deg', 4.3)):
-        values = (_long_error(part, f'mean_{unit}') for part in parts)
-        yield Requirement(f'50 mm pushes on the face [{unit}]', limit, *values)
+def _requirements(fitted: dict[str, Any], kept: dict[str, Any]) -> list[dict[str, Any]]:
+    """The required figures with their values on both parts; None without measurements."""
+    return [
+        {'name': name, 'limit': limit, 'fitted': value(fitted), 'kept': value(kept)}
+        for name, limit, value in (
+            ('4 mm pushes, mean NMSE in the push frame', 0.070, _short_nmse),
+            ('50 mm pushes on the face [mm]', 3.8, partial(_long_error, 'mean_mm')),
+            ('50 mm pushes on the face [deg]', 4.3, partial(_long_error, 'mean_deg')),
+        )
+    ]
 
 
 def _short_nmse(figures: dict[str, Any]) -> float | None:
@@ -70,7 +52,8 @@ def _short_nmse(figures: dict[str, Any]) -> float | None:
     return short['nmse_push_frame']['mean'] if short else None
 
 
-def _long_error(figures: dict[str, Any], name: str) -> float | None:
+def _long_error(name: str, figures: dict[str, Any]) -> float | None:
+    """The largest error of all files."""
     values = [each['on_face'][name] for each in figures['pushes_50mm']]
     return max((value for value in values if value is not None), default=None)
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from contextlib import closing
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,7 +83,6 @@ def collected(collection: Collection, jobs: int) -> Iterator[Array]:
 
 def _chunk(collection: Collection, first: int, end: int) -> list[Array]:
     """The rows of pushes `first` to `end - 1`."""
-    with Collector(
-        collection.settings, Slider(), collection.design, collection.sampler
-    ) as collector:
+    parts = collection.settings, Slider(), collection.design, collection.sampler
+    with closing(Collector(*parts)) as collector:
         return [collector.push(collection.seed, number) for number in range(first, end)]

@@ -5,7 +5,6 @@ is one row. Source: Bauza, Hogan and Rodriguez 2018, section 4.
 """
 
 import math
-from types import TracebackType
 
 import numpy as np
 from push_core.common import RunError
@@ -35,15 +34,8 @@ class Collector:
         self._timing = design.timing
         self._sampler = sampler
 
-    def __enter__(self) -> 'Collector':
-        return self
-
-    def __exit__(
-        self,
-        _kind: type[BaseException] | None,
-        _error: BaseException | None,
-        _traceback: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
+        """Frees the resources of the world."""
         self._world.close()
 
     def push(self, seed: int, number: int) -> Array:

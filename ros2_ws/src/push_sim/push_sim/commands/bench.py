@@ -5,6 +5,7 @@ import math
 import sys
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 from resource import getpagesize
 
@@ -47,7 +48,7 @@ def pushes_per_second(settings: SimSettings, slider: Slider) -> float:
     """Collected pushes for each second of processor time, in one process."""
     design = PushDesign()
     sampler = uniform(design, slider.side, _PUSHES)
-    with Collector(settings, slider, design, sampler) as collector:
+    with closing(Collector(settings, slider, design, sampler)) as collector:
 
         def collect() -> None:
             for number in range(_PUSHES):
@@ -130,11 +131,8 @@ def work(arguments: argparse.Namespace) -> None:
 
 
 def _table(figures: dict[str, str | int | float]) -> str:
-    rows = [
-        f'{name:18}{value:.4g}' if isinstance(value, float) else f'{name:18}{value}'
-        for name, value in figures.items()
-    ]
-    return '\n'.join(rows) + '\n'
+    texts = (f'{value:.4g}' if isinstance(value, float) else value for value in figures.values())
+    return ''.join(f'{name:18}{text}\n' for name, text in zip(figures, texts, strict=True))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -1,12 +1,12 @@
 """Repeats measured pushes and robot runs in a simulated world, in several processes."""
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 from push_core.common import Map
 from push_core.data import LongPushes, PushSet
 from push_core.geometry import Array
@@ -44,36 +44,29 @@ class Replay:
 
     def short(self, world: WorldSettings, pushes: PushSet) -> Array:
         """Simulated displacements (n, 3) [m, m, rad] of short pushes."""
-        tasks = (
-            (world, self.slider, pushes.inputs[rows], pushes.distance)
-            for rows in _chunks(len(pushes))
-        )
-        return self._gathered(self.run_in(replay_short_pushes, tasks))
+        function = partial(replay_short_pushes, distance=pushes.distance)
+        return self._replayed(function, world, pushes.inputs)
 
     def long(self, world: WorldSettings, pushes: LongPushes) -> Array:
         """Simulated end poses (n, 3) [m, m, rad] of long pushes."""
         columns = (pushes.start, pushes.tip_start, pushes.tip_end)
-        tasks = (
-            (world, self.slider, *(column[rows] for column in columns))
-            for rows in _chunks(len(pushes))
-        )
-        return self._gathered(self.run_in(replay_long_pushes, tasks))
+        return self._replayed(replay_long_pushes, world, *columns)
 
     def windows(self, world: WorldSettings, windows: Windows) -> Array:
         """Simulated end poses (n, 3) [m, m, rad] of the windows of a run."""
-        return self._gathered(self.run_in(replay_windows, [(world, self.slider, windows)]))
+        return self._replayed(replay_windows, world, windows.start, windows.tip)
 
-    def _gathered(self, chunks: Iterator[Array]) -> Array:
+    def _replayed(
+        self, function: Callable[..., Array], world: WorldSettings, *columns: Array
+    ) -> Array:
+        """The results of a function for all rows, computed in chunks."""
+        firsts = range(0, len(columns[0]), _CHUNK)
+        chunks = ([column[first : first + _CHUNK] for column in columns] for first in firsts)
         parts = []
-        for part in chunks:
+        for part in self.run_in(function, ((world, self.slider, *chunk) for chunk in chunks)):
             self.bar.update(len(part))
             parts.append(part)
         return np.concatenate(parts)
-
-
-def _chunks(count: int) -> Iterator[NDArray[np.intp]]:
-    rows = np.arange(count)
-    return (rows[first : first + _CHUNK] for first in range(0, count, _CHUNK))
 
 
 def replay_short_pushes(
@@ -130,19 +123,20 @@ def _long_end(world: World, start: Array, tip_start: Array, tip_end: Array) -> A
     return world.object_pose
 
 
-def replay_windows(settings: WorldSettings, slider: Slider, windows: Windows) -> Array:
+def replay_windows(settings: WorldSettings, slider: Slider, start: Array, tip: Array) -> Array:
     """Simulates the windows of a robot run: the tip moves as sensed, the object is free.
 
     Args:
         settings: parameters of the world.
         slider: nominal slider.
-        windows: n windows; each starts from its measured object pose.
+        start: (n, 3) object poses at the starts of the windows [m, m, rad].
+        tip: (n, k, 2) tip positions, every `INTERVAL` [m].
 
     Returns:
         (n, 3) object poses at the ends of the windows [m, m, rad].
     """
     with closing(make_coarse_world(settings, slider)) as world:
-        ends = [_window_end(world, *row) for row in zip(windows.start, windows.tip, strict=True)]
+        ends = [_window_end(world, *row) for row in zip(start, tip, strict=True)]
     return np.reshape(ends, (-1, 3))
 
 

@@ -1,7 +1,6 @@
 """The plant: world, robot, cameras and perturbations, one period at a time."""
 
 import copy
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -58,7 +57,7 @@ class Plant:
         self._sensor = Sensor(settings.sensor)
         self._schedule = Schedule(settings.perturbation)
         self._substeps = settings.world.substeps
-        self._latency = _whole_substeps(settings)
+        self._latency = settings.latency_substeps
         self._applied: list[AppliedPerturbation] = []
         self._ticks = 0
 
@@ -222,16 +221,6 @@ class Plant:
         due = self._schedule.due(self.time)
         if due is not None:
             self.perturb(due)
-
-
-def _whole_substeps(settings: SimSettings) -> int:
-    substeps = settings.sensor.latency / settings.world.substep
-    if not math.isclose(substeps, round(substeps), abs_tol=1e-6):
-        raise InputError(
-            f'parameter sensor.latency is {settings.sensor.latency:g}, '
-            f'must be a multiple of world.substep = {settings.world.substep:g} s'
-        )
-    return round(substeps)
 
 
 def _check_start(object_pose: Array, tip_position: Array, seed: int) -> None:

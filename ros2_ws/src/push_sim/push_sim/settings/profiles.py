@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from push_core.common import InputError
 from push_core.physics import ACTUATORS
 
-from push_sim.settings.plant_settings import SensorSettings, SimSettings, WorldSettings
+from push_sim.settings.plant_settings import SensorSettings, SimSettings
+from push_sim.settings.world_settings import WorldSettings
 
 PROFILES: Mapping[str, SimSettings] = {
     'irb120': SimSettings(actuator=ACTUATORS['irb120']),

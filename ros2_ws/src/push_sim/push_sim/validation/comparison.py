@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from push_core.common import Map
-from push_core.data import Accuracy, LongPushes, PushSet, RobotRun, accuracy
+from push_core.data import LongPushes, PushSet, RobotRun
 from push_core.geometry import Array
 from push_core.physics import ActuatorSettings, Slider
 from tqdm import tqdm
@@ -36,16 +36,6 @@ class ShortComparison:
     pushes: PushSet
     simulated: Array
     ellipsoid: Array
-
-    @property
-    def accuracy(self) -> Accuracy:
-        """Accuracy of the simulator."""
-        return accuracy(self.simulated, self.pushes)
-
-    @property
-    def ellipsoid_accuracy(self) -> Accuracy:
-        """Accuracy of the ellipsoid."""
-        return accuracy(self.ellipsoid, self.pushes)
 
 
 @dataclass(frozen=True)
@@ -117,39 +107,31 @@ def compare_with_measurements(
         run_in: maps a function over tasks, in processes.
     """
     cuts = [cut_windows(run) for run in data.runs]
-    pushes = [data.short or (), *data.long.values(), *(cut.start for cut in cuts)]
+    replayed = [data.short or (), *data.long.values(), *(cut.start for cut in cuts)]
     bar: ProgressBar
     # once with the simulator, once with the ellipsoid
     with tqdm(
-        total=2 * sum(map(len, pushes)), desc='replaying', unit=' pushes', disable=None
+        total=2 * sum(map(len, replayed)), desc='replaying', unit=' pushes', disable=None
     ) as bar:
-        replay = Replay(slider, run_in, bar)
+        replay, worlds = Replay(slider, run_in, bar), (settings.world, ELLIPSOID)
+        short = [replay.short(world, data.short) for world in worlds if data.short]
         return Validation(
-            _short(replay, settings, data.short) if data.short else None,
-            tuple(_long(replay, settings, *named) for named in data.long.items()),
+            ShortComparison(data.short, *short) if data.short else None,
+            tuple(
+                LongComparison(file, pushes, *(replay.long(world, pushes) for world in worlds))
+                for file, pushes in data.long.items()
+            ),
             tuple(_run(replay, settings, *pair) for pair in zip(data.runs, cuts, strict=True)),
             data.missing,
         )
 
 
-def _short(replay: Replay, settings: SimSettings, pushes: PushSet) -> ShortComparison:
-    simulated, ellipsoid = (replay.short(world, pushes) for world in (settings.world, ELLIPSOID))
-    return ShortComparison(pushes, simulated, ellipsoid)
-
-
-def _long(replay: Replay, settings: SimSettings, file: str, pushes: LongPushes) -> LongComparison:
-    simulated, ellipsoid = (replay.long(world, pushes) for world in (settings.world, ELLIPSOID))
-    return LongComparison(file, pushes, simulated, ellipsoid)
-
-
 def _run(replay: Replay, settings: SimSettings, run: RobotRun, cut: Windows) -> RunComparison:
-    simulated, ellipsoid = (replay.windows(world, cut) for world in (settings.world, ELLIPSOID))
     return RunComparison(
         run,
         settings.actuator,
         fit_actuator(run, settings.actuator).settings,
         modelled_tip(run, settings.actuator),
         cut,
-        simulated,
-        ellipsoid,
+        *(replay.windows(world, cut) for world in (settings.world, ELLIPSOID)),
     )

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.data import LongPushes, RobotRun
+from push_core.data import LongPushes, RobotRun, accuracy
 from push_core.geometry import Array, wrap_angle
 from push_core.physics import ActuatorSettings
 
@@ -41,8 +41,11 @@ def validation_json(result: Validation) -> dict[str, Any]:
 
 
 def _short_json(compared: ShortComparison) -> dict[str, Any]:
-    ellipsoid = compared.ellipsoid_accuracy.as_json()
-    return {**compared.accuracy.as_json(), 'limit_surface': ellipsoid}
+    simulated, ellipsoid = (
+        accuracy(predicted, compared.pushes).as_json()
+        for predicted in (compared.simulated, compared.ellipsoid)
+    )
+    return {**simulated, 'limit_surface': ellipsoid}
 
 
 def _long_json(compared: LongComparison) -> dict[str, Any]:
