@@ -4,9 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from push_core.common import plain_table
+
 from push_sim.calibration.calibration import FittedParameter, PlantCalibration
 from push_sim.validation import validation_json
 
+_PARAMETER_HEAD = ('parameter', 'fitted', 'deviation', 'before', 'unit')
+_REQUIREMENT_HEAD = ('required', 'fitted part', 'the rest', 'at most')
+_RUN_HEAD = ('tip of the fitted run and of the others', 'rms of a coordinate [mm]')
 _PARAMETER_KEYS = ('value', 'deviation', 'unit', 'before')
 _NODE_PARAMETERS = {'sim_node': ('world', 'actuator'), 'mpc_node': ('actuator',)}
 """Parameter groups of each node; the controller predicts with the plant's actuator."""
@@ -73,26 +78,25 @@ def _stiffness_json(result: PlantCalibration) -> dict[str, Any] | None:
 
 def calibration_table(figures: Mapping[str, Any]) -> str:
     """The figures of `calibration_json` as text."""
-    lines = [
-        f'{"parameter":30}{"fitted":>10}{"deviation":>12}{"before":>10}',
-        *(_parameter_row(name, each) for name, each in figures['parameters'].items()),
-        *_stiffness_rows(figures['stiffness']),
-        '',
-        f'{"":44}{"fitted part":>12}{"the rest":>10}{"at most":>10}',
-        *map(_requirement_row, figures['bars']),
-        '',
-        'tip of the fitted run and of the others, rms of a coordinate [mm]',
-        *(_run_row(each) for part in ('fitted', 'kept') for each in figures[part]['robot_runs']),
-    ]
-    return '\n'.join(lines) + '\n'
+    runs = (each for part in ('fitted', 'kept') for each in figures[part]['robot_runs'])
+    blocks = (
+        [
+            *plain_table([_PARAMETER_HEAD, *map(_parameter_row, figures['parameters'].items())]),
+            *_stiffness_lines(figures['stiffness']),
+        ],
+        plain_table([_REQUIREMENT_HEAD, *map(_requirement_row, figures['bars'])]),
+        plain_table([_RUN_HEAD, *((run['file'], f'{run["tip_rms_mm"]:.3f}') for run in runs)]),
+    )
+    return '\n'.join('\n'.join([*lines, '']) for lines in blocks)
 
 
-def _parameter_row(name: str, each: Mapping[str, Any]) -> str:
+def _parameter_row(named: tuple[str, Mapping[str, Any]]) -> Sequence[str]:
+    name, each = named
     value, deviation, before = each['value'], each['deviation'], each['before']
-    return f'{name:30}{value:10.5f}{deviation:12.2g}{before:10.5f} {each["unit"]}'.rstrip()
+    return name, f'{value:.5f}', f'{deviation:.2g}', f'{before:.5f}', each['unit']
 
 
-def _stiffness_rows(stiffness: Mapping[str, Any] | None) -> Iterator[str]:
+def _stiffness_lines(stiffness: Mapping[str, Any] | None) -> Iterator[str]:
     if stiffness is None:
         return
     verdict = 'identify' if stiffness['carried'] else 'do not identify'
@@ -104,17 +108,9 @@ def _stiffness_rows(stiffness: Mapping[str, Any] | None) -> Iterator[str]:
     )
 
 
-def _requirement_row(each: Mapping[str, Any]) -> str:
-    values = f'{_number(each["fitted"]):>12}{_number(each["kept"]):>10}'
-    return f'{each["name"]:44}{values}{each["limit"]:10.3f}'
-
-
-def _run_row(run: Mapping[str, Any]) -> str:
-    return f'  {run["file"]:42}{run["tip_rms_mm"]:12.3f}'
-
-
-def _number(value: float | None) -> str:
-    return '-' if value is None else f'{value:.3f}'
+def _requirement_row(each: Mapping[str, Any]) -> Sequence[str]:
+    values = (each[name] for name in ('fitted', 'kept', 'limit'))
+    return each['name'], *('-' if value is None else f'{value:.3f}' for value in values)
 
 
 def ros_parameter_file(parameters: Sequence[FittedParameter], data_hash: str) -> str:

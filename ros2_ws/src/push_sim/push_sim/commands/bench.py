@@ -10,7 +10,7 @@ from pathlib import Path
 from resource import getpagesize
 
 import numpy as np
-from push_core.common import Parser, json_text, replaced, run_command
+from push_core.common import Parser, json_text, plain_table, replaced, run_command
 from push_core.physics import Slider
 
 from push_sim.collect import Collector, PushDesign, uniform
@@ -131,8 +131,11 @@ def work(arguments: argparse.Namespace) -> None:
 
 
 def _table(figures: dict[str, str | int | float]) -> str:
-    texts = (f'{value:.4g}' if isinstance(value, float) else value for value in figures.values())
-    return ''.join(f'{name:18}{text}\n' for name, text in zip(figures, texts, strict=True))
+    rows = [
+        (name, f'{value:.4g}' if isinstance(value, float) else str(value))
+        for name, value in figures.items()
+    ]
+    return '\n'.join([*plain_table(rows), ''])
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from push_core.common import plain_table
 from push_core.data import LongPushes, RobotRun, accuracy
 from push_core.geometry import Array, wrap_angle
 from push_core.physics import ActuatorSettings
@@ -22,6 +23,8 @@ from push_sim.validation.comparison import (
     ShortComparison,
     Validation,
 )
+
+_Row: TypeAlias = tuple[str, ...]
 
 _KINDS = {
     SHORT_FILES: 'short pushes',
@@ -106,29 +109,26 @@ def validation_table(figures: Mapping[str, Any], profile: str) -> str:
         figures: all of them.
         profile: name of the plant's profile.
     """
-    lines = [
-        f'{f"profile {profile}":44}{"simulator":>11}{"ellipsoid":>11}  reference',
+    rows = [
+        (f'profile {profile}', 'simulator', 'ellipsoid', 'reference'),
         *_short_rows(figures['pushes_4mm']),
-        *(line for each in figures['pushes_50mm'] for line in _long_rows(each)),
-        *(line for each in figures['robot_runs'] for line in _run_rows(each)),
-        *(f'no {_KINDS[each]}: there is no {each}' for each in figures['missing']),
+        *(row for each in figures['pushes_50mm'] for row in _long_rows(each)),
+        *(row for each in figures['robot_runs'] for row in _run_rows(each)),
     ]
-    return '\n'.join(lines) + '\n'
+    missing = (f'no {_KINDS[each]}: there is no {each}' for each in figures['missing'])
+    return '\n'.join([*plain_table(rows), *missing, ''])
 
 
-def _row(title: str, first: float | None, second: float | None, remark: str = '') -> str:
-    return f'  {title:42}{_number(first)}{_number(second)}  {remark}'.rstrip()
+def _row(title: str, first: float | None, second: float | None, reference: str = '') -> _Row:
+    numbers = ('' if value is None else f'{value:.3f}' for value in (first, second))
+    return (f'  {title}', *numbers, reference)
 
 
-def _number(value: float | None) -> str:
-    return f'{"":11}' if value is None else f'{value:11.3f}'
-
-
-def _short_rows(figures: Mapping[str, Any] | None) -> Iterator[str]:
+def _short_rows(figures: Mapping[str, Any] | None) -> Iterator[_Row]:
     if figures is None:
         return
     other = figures['limit_surface']
-    yield f'{figures["n"]} pushes of 4 mm, each on its own'
+    yield f'{figures["n"]} pushes of 4 mm', '', '', ''
     for name, label in (('dx_mm', 'x [mm]'), ('dy_mm', 'y [mm]'), ('dtheta_deg', 'theta [deg]')):
         yield _row(f'RMSE {label}', figures['rmse'][name], other['rmse'][name])
     for frame, remark in (('push', 'GP of 1000 points 0.037; at most 0.070'), ('body', '')):
@@ -138,8 +138,8 @@ def _short_rows(figures: Mapping[str, Any] | None) -> Iterator[str]:
         yield _row(f'NMSE mean, {frame} frame', ours['mean'], theirs['mean'], remark)
 
 
-def _long_rows(figures: Mapping[str, Any]) -> Iterator[str]:
-    yield f'{figures["file"]}: mean error at the end'
+def _long_rows(figures: Mapping[str, Any]) -> Iterator[_Row]:
+    yield f'{figures["file"]}: mean error at the end', '', '', ''
     for part, title, limits in (
         ('on_face', '{} pushes on the face', ('at most 3.8', 'at most 4.3')),
         ('all', 'all {} pushes', ('', '')),
@@ -150,9 +150,9 @@ def _long_rows(figures: Mapping[str, Any]) -> Iterator[str]:
         yield _row(f'{name} [deg]', ours['mean_deg'], theirs['mean_deg'], limits[1])
 
 
-def _run_rows(figures: Mapping[str, Any]) -> Iterator[str]:
+def _run_rows(figures: Mapping[str, Any]) -> Iterator[_Row]:
     best, other = figures['identified'], figures['limit_surface']
-    yield f'{figures["file"]}'
+    yield figures['file'], '', '', ''
     yield _row('tip, rms of a coordinate [mm]', figures['tip_rms_mm'], None, _times(figures))
     yield _row('the same, fitted to this run [mm]', best['tip_rms_mm'], None, _times(best))
     ours, theirs = figures['slider_rms_mm'], other['slider_rms_mm']
