@@ -114,6 +114,7 @@ case "$*" in
     while [ "$1" != --wheel-dir ]; do shift; done
     echo built >> "$BUILDS"
     echo half > "$2/object.o"
+    sleep "${BUILD_TIME:-0}"
     [ "$BUILD" = whole ] || { echo 'x.cpp:1: error: no such thing'; exit 1; }
     echo whole > "$2/pybullet-3.2.7-cp313-cp313-linux_x86_64.whl" ;;
   *--only-binary*) echo 'ERROR: No matching distribution found'; exit 1 ;;
@@ -161,6 +162,12 @@ def test_pybullet_is_compiled_once_for_all_clones(install_pybullet, project, tmp
     assert (tmp_path / 'builds').read_text() == 'built\n'
     (wheel,) = (tmp_path / 'home/.cache/push_cell/wheels').rglob('*.whl')
     assert wheel.read_text() == 'whole\n'
+
+
+def test_a_long_compile_says_how_far_it_is(install_pybullet):
+    long = install_pybullet(BUILD_TIME='3', PROGRESS_PERIOD='1')
+    assert (long.returncode, long.stderr) == (0, '')
+    assert 'compiling PyBullet: 0 %' in long.stdout
 
 
 def test_a_failed_compile_is_one_line_and_leaves_no_wheel(install_pybullet, tmp_path):

@@ -4,6 +4,7 @@
 
 # how many objects its build makes, about
 readonly PYBULLET_OBJECTS=266
+readonly PROGRESS_PERIOD=${PROGRESS_PERIOD:-30}
 
 # install_pybullet: the wheel of the cache or of the index, otherwise one that is compiled.
 install_pybullet() {
@@ -79,14 +80,15 @@ build_wheel() {
     --no-binary pybullet --wheel-dir "$2" "$1" > "$logs/pip-compile.log" 2>&1
 }
 
-# show_progress PROCESS FOLDER: a line every half minute, until the build has ended.
+# show_progress PROCESS FOLDER: a line every half minute until the build has ended.
 show_progress() {
   local waited=0 objects
   while kill -0 "$1" 2> /dev/null; do
     sleep 1
     waited=$((waited + 1))
-    [ $((waited % 30)) = 0 ] || continue
-    objects=$(find "$2" -name '*.o' 2> /dev/null | wc -l)
+    [ $((waited % PROGRESS_PERIOD)) = 0 ] || continue
+    # files come and go meanwhile
+    objects=$({ find "$2" -name '*.o' 2> /dev/null || true; } | wc -l)
     [ "$objects" -ge "$PYBULLET_OBJECTS" ] ||
       printf '          compiling PyBullet: %d %%\n' $((100 * objects / PYBULLET_OBJECTS))
   done
