@@ -29,7 +29,9 @@ ROW = {
     'spread_mm': 0.01,
     'paper_mm': 8.5,
 }
-RESULTS = {'table': {'command': 'bench table', 'made': {}, 'results': {'rows': [ROW]}}}
+RESULTS = {
+    'table': {'command': 'bench table', 'made': {'date': '2026-11-28'}, 'results': {'rows': [ROW]}}
+}
 
 
 @pytest.fixture(scope='module')
@@ -53,13 +55,12 @@ def test_what_a_document_quotes_is_in_the_results_file(path: Path, published) ->
 
 
 def test_a_quoted_figure_is_replaced_in_its_format() -> None:
-    text = (
-        'a <!-- figure: eight_80_gp -->9.99<!-- / --> mm of <!-- figure: table_laps -->?<!-- / -->'
-    )
-    expected = text.replace('9.99', '0.33').replace('?', '5')
-    assert quoted(text, RESULTS) == expected
-    short = '<!-- figure: eight_80_gp .1f --><!-- / -->'
-    assert quoted(short, RESULTS) == '<!-- figure: eight_80_gp .1f -->0.3<!-- / -->'
+    text = '9.99<!-- figure: eight_80_gp --> mm of (?<!-- figure: table_laps -->) laps'
+    assert quoted(text, RESULTS) == text.replace('9.99', '0.33').replace('?', '5')
+    short = 'about 7<!-- figure: eight_80_gp .1f -->'
+    assert quoted(short, RESULTS) == short.replace('7', '0.3')
+    date = '2026<!-- figure: table_date -->'
+    assert quoted(date, RESULTS) == date.replace('2026', '2026-11-28')
 
 
 def test_a_quoted_table_is_replaced() -> None:
@@ -72,7 +73,7 @@ def test_a_quoted_table_is_replaced() -> None:
 
 
 @pytest.mark.parametrize(
-    'quotation', ['<!-- figure: nine_80_gp -->1<!-- / -->', '<!-- table: nine -->\n<!-- / -->']
+    'quotation', ['1<!-- figure: nine_80_gp -->', '<!-- table: nine -->\n<!-- / -->']
 )
 def test_an_unknown_quotation_is_named(quotation: str) -> None:
     with pytest.raises(InputError, match='nine'):
@@ -100,7 +101,7 @@ def test_only_some_sections_are_run_and_the_others_stay(tmp_path: Path, monkeypa
     monkeypatch.setattr(paper_table, 'main', table)
     (tmp_path / 'docs').mkdir()
     page, guide = tmp_path / 'docs' / 'results.md', tmp_path / 'guide.md'
-    guide.write_text('<!-- figure: eight_80_gp -->?<!-- / -->')
+    guide.write_text('?<!-- figure: eight_80_gp -->')
     assert bench_results.main(['--only', 'table', '-o', str(page)]) == 0
     first = read_results(page.with_suffix('.json'))['table']
     assert bench_results.main(['--only', 'harsh', '--seeds', '2', '-o', str(page)]) == 0

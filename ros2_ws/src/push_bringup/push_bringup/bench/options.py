@@ -73,5 +73,5 @@ def check_positive(name: str, value: int) -> None:
 
 
 def print_results(arguments: argparse.Namespace, bench: str, results: Mapping[str, Any]) -> None:
-    """Prints the results of a benchmark: with `--json` as one object, else as a Markdown table."""
+    """Prints the results of a benchmark: as JSON with `--json`, else as a Markdown table."""
     sys.stdout.write(json_text(results) if arguments.json else TABLES[bench](finite(results)))

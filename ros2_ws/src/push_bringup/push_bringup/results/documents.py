@@ -1,7 +1,7 @@
 """Writes the figures of results.json into the documents that quote them.
 
-A figure in a sentence is `<!-- figure: NAME -->0.33<!-- / -->`, optionally with a format after the
-name (`.1f`); a table is a block between `<!-- table: NAME -->` and `<!-- / -->`.
+A figure in a sentence is followed by its name, `0.33<!-- figure: NAME -->`, and optionally by a
+format (`.1f`); a table is a block between `<!-- table: NAME -->` and `<!-- / -->`.
 """
 
 import re
@@ -16,7 +16,7 @@ from push_bringup.results.figures import Figure, figures
 from push_bringup.results.results_file import Results
 from push_bringup.results.sections import SECTIONS, Section
 
-_FIGURE = re.compile(r'(<!-- figure: (\S+)(?: (\S+))? -->)[^<]*(<!-- / -->)')
+_FIGURE = re.compile(r'[^\s(|>]*(<!-- figure: (\S+)(?: (\S+))? -->)')
 _TABLE = re.compile(r'^(<!-- table: (\S+) -->\n).*?^(<!-- / -->)', re.DOTALL | re.MULTILINE)
 
 
@@ -35,8 +35,8 @@ def quoted(text: str, sections: Results) -> str:
     numbers = figures(sections)
 
     def figure(match: re.Match[str]) -> str:
-        start, name, form, end = match.groups()
-        return f'{start}{_formatted(_known(numbers, name, "figure"), form)}{end}'
+        comment, name, form = match.groups()
+        return f'{_formatted(_known(numbers, name, "figure"), form)}{comment}'
 
     def table(match: re.Match[str]) -> str:
         start, name, end = match.groups()
@@ -58,7 +58,7 @@ def results_page(sections: Results) -> str:
 
 
 def _formatted(value: Figure, form: str | None) -> str:
-    return format(value, form or ('d' if isinstance(value, int) else '.2f'))
+    return format(value, form or ('.2f' if isinstance(value, float) else ''))
 
 
 def _known(names: Mapping[str, Any], name: str, kind: str) -> Any:

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
-Figure: TypeAlias = float | int
+Figure: TypeAlias = float | int | str
 Named: TypeAlias = Iterator[tuple[str, Figure | None]]
 
 
@@ -13,10 +13,12 @@ def figures(sections: Mapping[str, Mapping[str, Any]]) -> dict[str, Figure]:
 
     Names: `eight_80_gp` (median error of the paper's row, profile irb120), `harsh_eight_80_gp`
     (another profile), `without_delay_prediction_eight_80` (ablation),
-    `training_size_200_zero_random`, `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`.
+    `training_size_200_zero_random`, `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`,
+    `table_date` (when a section was made).
     """
     named: dict[str, Figure] = {}
     for name, section in sections.items():
+        named[f'{name}_date'] = section['made']['date']
         for figure, value in _FIGURES[name](name, section['results']):
             if value is not None:
                 named[figure] = value
@@ -41,8 +43,10 @@ def _ablation(_section: str, results: Mapping[str, Any]) -> Named:
     for row in results['rows']:
         variant = _word(row['variant'])
         yield f'{variant}_command_step', row['command_step_mm_s']
-        for experiment, error in zip(results['experiments'], row['median_mm'], strict=True):
+        columns = zip(results['experiments'], row['median_mm'], row['completed'], strict=True)
+        for experiment, error, completed in columns:
             yield f'{variant}_{_experiment(experiment)}', error
+            yield f'{variant}_{_experiment(experiment)}_completed', completed
 
 
 def _solvers(section: str, results: Mapping[str, Any]) -> Named:
