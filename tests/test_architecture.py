@@ -13,7 +13,7 @@ MODULES = {
     for package in SOURCES.iterdir()
     for path in package.glob(f'{package.name}/**/*.py')
 }
-LARGEST_FOLDER = 15
+LARGEST_FOLDER = 14
 # they load ROS, plotly or another heavy library, which only some users of their wing need
 IMPORTED_BY_NAME = {
     'push_bag.commands.info',
