@@ -23,6 +23,7 @@ from push_mpc.node import conversions
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.node.model_client import ModelClient
 from push_mpc.node.pose_pair import PosePair
+from push_mpc.node.preparation import Preparation
 from push_mpc.node.recorder_watch import RecorderWatch
 from push_mpc.node.watchdog import Watchdog
 from push_mpc.plan import planned
@@ -52,7 +53,8 @@ class MpcNode(Node):  # type: ignore[misc]
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
         self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
-        self._model = ModelClient(self, self._settings.slider.side, self._controller.prepare_model)
+        self._preparation = Preparation(self._settings, self._controller)
+        self._model = ModelClient(self, self._settings.slider.side, self._preparation.prepare)
         self._recorder = RecorderWatch(self)
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
@@ -70,6 +72,7 @@ class MpcNode(Node):  # type: ignore[misc]
         # a destroyed publisher drops messages that have not arrived
         for publisher in (self._commands, self._states):
             publisher.wait_for_all_acked(Duration(seconds=FLUSH_TIMEOUT))
+        self._preparation.close()
         self._model.close()
         super().destroy_node()
 

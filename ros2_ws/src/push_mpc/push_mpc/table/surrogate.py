@@ -59,7 +59,6 @@ class Table:
         self._cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
         self._axes = (self._low.tolist(), self._step.tolist(), self._cells.tolist())
         self._coefficients = self._fit(mean, jacobian)
-        self._blocks = self._coefficients.reshape(-1, 3, 16)
 
     def _fit(self, mean: Array, jacobian: Array) -> Array:
         """Coefficients (m - 1, k - 1, 3, 4, 4) of every cell in its unit coordinates."""
@@ -87,7 +86,8 @@ class Table:
         cell = np.minimum(inside.astype(int), self._cells - 1)
         powers, slopes = _powers(inside - cell)
         slopes *= ((place == inside) / self._step)[:, :, None]
-        blocks = self._blocks.take(cell[:, 0] * self._cells[1] + cell[:, 1], axis=0)
+        flat = cell[:, 0] * self._cells[1] + cell[:, 1]
+        blocks = self._coefficients.reshape(-1, 3, 16).take(flat, axis=0)
         rates = blocks @ _products(powers, slopes)
         return rates[..., 0], rates[..., 1:]
 
