@@ -10,7 +10,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from push_gp.evaluation.learning_curve import LIMIT_SURFACE
+from push_gp.evaluation.curve import LIMIT_SURFACE
 
 NAMES = {
     'zero': 'GP, zero mean',

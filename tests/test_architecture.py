@@ -22,7 +22,6 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recording',
     'push_bag.repair.recover',
     'push_bag.replay.node_comparison',
-    'push_gp.low_rank.folded_likelihood',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',
     'push_gp.training.train',

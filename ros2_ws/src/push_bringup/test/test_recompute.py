@@ -13,8 +13,7 @@ from push_bringup.in_process.loop import InProcessCell, nanoseconds, tabulated
 from push_bringup.in_process.record import InProcessRecord
 from push_bringup.setup.cell_parameters import CellParameters, node_defaults
 from push_core.common.errors import InputError
-from push_gp.models.model_file import load_model
-from push_gp.models.model_source import model_named
+from push_gp.models.model_file import load_model, model_named
 from push_gp.server.conversions import added_pushes_message
 from push_gp.server.model_server import ModelServer
 from push_mpc.loop.controller import Mode, Tick

@@ -2,7 +2,7 @@ import json
 
 import numpy as np
 import pytest
-from push_core.data.accuracy import accuracy, in_push_frame
+from push_core.data.prediction_accuracy import accuracy, in_push_frame
 from push_core.data.push_set import PushSet
 
 

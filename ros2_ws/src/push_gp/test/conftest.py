@@ -12,7 +12,7 @@ from push_core.data.push_set import PushSet
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_gp.models.gp_model import GpModel
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import Hyperparameters
 from push_gp.training.train import train
 
 DISTANCE = 0.004

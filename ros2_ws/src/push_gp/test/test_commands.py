@@ -81,7 +81,7 @@ def test_evaluate_takes_the_motion_cone_as_a_model(data: Path, capsys: Capture) 
         (['pushes.csv', '-o', 'm.npz', '--points', '61'], 'cannot choose 61 of 60 pushes'),
         (['pushes.csv', '-o', 'm.npz', '--points', '0'], 'cannot choose 0 of 60 pushes'),
         (['pushes.csv', '-o', 'm.npz', '--seed', '-1'], 'must not be negative'),
-        (['pushes.csv', '-o', 'm.npz', '--pick', 'die', '--seed', '1'], 'of a random choice'),
+        (['pushes.csv', '-o', 'm.npz', '--pick', 'die', '--seed', '1'], 'need a random choice'),
         (['pushes.csv', '-o', 'm.npz', '--subset', 'subset_1'], 'there is no subset'),
         (['pushes.csv', '-o', 'none/m.npz'], 'there is no folder none'),
         (['pushes.csv', '-o', '.'], 'it is a folder'),
@@ -105,7 +105,7 @@ def test_evaluate_refuses_pushes_of_another_distance(
     other = data.parent / 'other.csv'
     write_pushes(other, PushSet(pushes.p_y, pushes.beta, pushes.displacement, 0.005))
     assert evaluate.main(['analytical', str(other)]) == 2
-    assert 'answers for pushes of 4 mm, these are of 5 mm' in capsys.readouterr().err
+    assert 'predicts pushes of 4 mm, these are of 5 mm' in capsys.readouterr().err
 
 
 def test_evaluate_refuses_a_file_of_pushes_as_a_model(data: Path, capsys: Capture) -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from push_core.common import InputError, flatten, replaced, unused_names
 from push_core.geometry import Array
-from push_gp.models.model_source import model_named
+from push_gp.models.model_file import model_named
 from push_gp.server.server_settings import ServerSettings
 
 # test_gp_server.py and test_model_server.py show what they do

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 from push_core.data.push_set import PushSet
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.kernel import correlation, squared_differences
+from push_gp.regression.kernel import Hyperparameters, correlation, squared_differences
 from push_gp.regression.likelihood import MarginalLikelihood
 from push_gp.training import fit as fit_module
 from push_gp.training.fit import fit

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from push_core.common.errors import InputError, RunError
 from push_core.data.push_set import PushSet
-from push_gp.models.batched_mean import BatchedMean
+from push_gp.models.posterior_mean import PosteriorMean
 from push_gp.regression.gp import GaussianProcess
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import Hyperparameters
 
 HYPERPARAMETERS = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 
@@ -84,16 +84,16 @@ def test_the_batched_mean_is_that_of_each_process(
     other = GaussianProcess(
         pushes.inputs, pushes.displacement[:, 2], Hyperparameters((0.02, 0.7), 0.02, 5e-3)
     )
-    mean, _ = BatchedMean([gp, other]).evaluate(points)
+    mean, _ = PosteriorMean([gp, other]).evaluate(points)
     assert np.allclose(mean, np.column_stack((gp.mean(points), other.mean(points))), rtol=1e-10)
 
 
 def test_a_batch_of_any_length_answers_alike(
     gp: GaussianProcess, monkeypatch: pytest.MonkeyPatch, points: np.ndarray
 ) -> None:
-    batched = BatchedMean([gp])
+    batched = PosteriorMean([gp])
     whole = batched.evaluate(points)
-    monkeypatch.setattr('push_gp.models.batched_mean.CACHED_NUMBERS', 7 * len(gp.outputs))
+    monkeypatch.setattr('push_gp.models.posterior_mean.CACHED_NUMBERS', 7 * len(gp.outputs))
     for in_parts, at_once in zip(batched.evaluate(points), whole, strict=True):
         assert np.allclose(in_parts, at_once, rtol=1e-12)
     assert batched.evaluate(points[:0])[0].shape == (0, 1)

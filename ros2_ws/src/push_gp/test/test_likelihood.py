@@ -3,7 +3,7 @@ from typing import Any
 
 import numpy as np
 from push_core.data.push_set import PushSet
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import Hyperparameters
 from push_gp.regression.likelihood import MarginalLikelihood
 
 HYPERPARAMETERS = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)

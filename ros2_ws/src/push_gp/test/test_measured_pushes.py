@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.data.accuracy import accuracy
 from push_core.data.long_push_csv import read_long_pushes
+from push_core.data.prediction_accuracy import accuracy
 from push_core.data.push_set import PushSet
 from push_core.physics.slider import Slider
-from push_gp.evaluation.calibration import calibration
 from push_gp.evaluation.evaluation import rollout_evaluation
+from push_gp.evaluation.uncertainty import score_uncertainty
 from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.model import PushModel
 from push_gp.models.sampling import nested_rows, subset_rows
@@ -34,10 +34,10 @@ def test_the_gp_tells_held_out_pushes_as_well_as_published_and_knows_how_well(
     training, rest = split(measured, subset_rows(measured, f'subset_{points}'))
     model = train(training)
     assert push_frame_nmse(model, rest) <= worst
-    told = calibration(model, rest)
-    assert told is not None
-    assert (told.coverage_95 >= 0.92).all()
-    assert (told.coverage_95 <= 0.97).all()
+    score = score_uncertainty(model, rest)
+    assert score is not None
+    assert (score.coverage_95 >= 0.92).all()
+    assert (score.coverage_95 <= 0.97).all()
 
 
 def test_the_fitted_limit_surface_has_the_published_error_in_both_frames(

@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from push_core.common.errors import InputError
 from push_core.data.push_set import PushSet
 from push_gp.models.gp_model import GpModel
-from push_gp.models.model_file import load_model, save_model
-from push_gp.models.model_format import VERSION
+from push_gp.models.model_file import VERSION, load_model, save_model
 from push_gp.models.sealed_archive import read_sealed, write_sealed
 from push_gp.training.train import train
 
@@ -154,7 +153,7 @@ def push_outside(_header: dict[str, Any], arrays: dict[str, np.ndarray]) -> None
         (without_weights, 'weights'),
         (other_points, 'do not hold 61 pushes'),
         (other_version, f'format version {VERSION + 1}'),
-        (other_format, 'no model file of push_gp'),
+        (other_format, 'not a model file of push_gp'),
         (other_noise, 'does not match its model_sha256'),
         (without_hash, 'does not match its model_sha256'),
         (other_training_set, 'does not match its training_set_sha256'),

@@ -119,5 +119,5 @@ def test_beyond_the_cap_the_older_of_the_closest_pushes_go(
 
 
 def test_the_motion_cone_does_not_learn(more_pushes: PushSet) -> None:
-    with pytest.raises(InputError, match='does not learn'):
+    with pytest.raises(InputError, match='cannot be extended'):
         ModelServer(AnalyticalModel(), 80).add_pushes(more_pushes)

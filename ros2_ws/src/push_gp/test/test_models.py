@@ -5,7 +5,7 @@ import pytest
 from push_core.common.errors import InputError, RunError
 from push_core.data.push_set import PushSet
 from push_core.physics.slider import Slider
-from push_gp.low_rank.domain import COVERED
+from push_gp.low_rank.chebyshev import HALF_WIDTH
 from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ConeMean, ZeroMean
@@ -148,7 +148,7 @@ def test_the_mean_over_a_cone_is_that_of_normally_distributed_directions() -> No
 
 def test_the_mean_over_a_cone_does_not_jump_where_its_polynomials_end() -> None:
     mean = ConeMean(AnalyticalModel())
-    edge = 0.5 * np.pi + COVERED[1]
+    edge = 0.5 * np.pi + HALF_WIDTH[1]
     inside, outside = (
         mean.evaluate(np.array([0.01]), np.array([edge + step]))[0] for step in (-1e-9, 1e-9)
     )

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from push_core.common.errors import InputError
 from push_core.data.push_set import PushSet
-from push_gp.models.sampling import die_rows, nested_rows, random_rows, subset_rows
+from push_gp.models.sampling import five_push_rows, nested_rows, random_rows, subset_rows
 
 
 def test_a_random_choice_depends_on_the_seed_alone(pushes: PushSet) -> None:
@@ -41,11 +41,11 @@ def test_the_five_of_a_die_is_found_among_the_pushes() -> None:
     p_y = np.array([0.03, 0.0, -0.0225, 0.0225, -0.0225, 0.0225, 0.04])
     beta = np.radians([90, 90, 60, 60, 120, 120, 30])
     pushes = PushSet(p_y, beta, np.zeros((7, 3)), 0.004)
-    assert die_rows(pushes).tolist() == [1, 2, 3, 4, 5]
+    assert five_push_rows(pushes).tolist() == [1, 2, 3, 4, 5]
     with pytest.raises(InputError, match='needs 5 pushes'):
-        die_rows(pushes.take(np.arange(4)))
+        five_push_rows(pushes.take(np.arange(4)))
 
 
 def test_the_five_of_a_die_are_five_even_where_all_pushes_are_alike() -> None:
     pushes = PushSet(np.zeros(6), np.ones(6), np.zeros((6, 3)), 0.004)
-    assert sorted(die_rows(pushes).tolist()) == [0, 1, 2, 3, 4]
+    assert sorted(five_push_rows(pushes).tolist()) == [0, 1, 2, 3, 4]

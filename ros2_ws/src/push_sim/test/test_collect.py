@@ -4,9 +4,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.data.die import five_of_a_die
 from push_core.data.push_csv import read_pushes
-from push_core.data.push_set import PushSet
+from push_core.data.push_set import PushSet, five_push_pattern
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_sim.collect.collection import Collection, collect_pushes, collected
@@ -109,7 +108,7 @@ def test_a_grid_covers_face_and_directions_evenly(slider: Slider) -> None:
 
 def test_the_five_of_a_die_come_in_turn(slider: Slider) -> None:
     pushes = collect_pushes(10, 0, 'ideal', sampling='die')
-    expected = np.tile(five_of_a_die(slider.side / 2.0), (2, 1))
+    expected = np.tile(five_push_pattern(slider.side / 2.0), (2, 1))
     assert np.all(np.abs(pushes.inputs - expected) < [0.8e-3, 0.015])
     assert pushes.displacement[:5] == pytest.approx(pushes.displacement[5:], abs=1e-9)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from push_core.data.accuracy import accuracy
+from push_core.data.prediction_accuracy import accuracy
 from push_core.physics.slider import Slider
 from push_sim.measured.measured_data import MeasuredData, read_measured_data
 from push_sim.measured.replay import replay_long_pushes, replay_short_pushes

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from push_core.common import InputError, Parser, run_command, worker_pool, write_atomically
 from push_core.data import PushSet, read_pushes
-from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, die_rows, nested_rows, save_model
+from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, five_push_rows, nested_rows, save_model
 from push_gp.training.train import train
 from push_sim.collect import collect_pushes
 from push_sim.settings import PROFILES
@@ -150,7 +150,7 @@ def _train(file: Path, pushes: PushSet, mean: str) -> None:
 def chosen_rows(pushes: PushSet, training_set: TrainingSet) -> np.ndarray:
     """Row numbers of the pushes in a training set."""
     if training_set.choice == 'die':
-        return die_rows(pushes)
+        return five_push_rows(pushes)
     return nested_rows(pushes, training_set.points, training_set.draw)
 
 

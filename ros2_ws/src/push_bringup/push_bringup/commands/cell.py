@@ -61,7 +61,7 @@ def work(arguments: argparse.Namespace) -> int:
 def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path) -> str:
     """Runs the cell; returns the reason of an early end, else an empty string."""
     if request.mode == 'inprocess':
-        from push_gp.models.model_source import model_named
+        from push_gp.models.model_file import model_named
 
         from push_bringup.in_process.run import recorded_in_process
 

@@ -1,6 +1,9 @@
 """Data sets of pushes and their CSV files, and the prediction error on them."""
 
-from push_core.data.accuracy import (
+from push_core.data.csv_table import CsvTable, read_table
+from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
+from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
+from push_core.data.prediction_accuracy import (
     OUTPUTS,
     READABLE,
     Accuracy,
@@ -8,12 +11,15 @@ from push_core.data.accuracy import (
     in_push_frame,
     per_output,
 )
-from push_core.data.csv_table import CsvTable, read_table
-from push_core.data.die import five_of_a_die
-from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
-from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
 from push_core.data.push_csv import read_pushes, write_pushes
-from push_core.data.push_set import HALF_FACE, P_Y_LIMIT, PushSet, check_distance, input_fault
+from push_core.data.push_set import (
+    HALF_FACE,
+    P_Y_LIMIT,
+    PushSet,
+    check_distance,
+    five_push_pattern,
+    input_fault,
+)
 from push_core.data.robot_run import RobotRun, read_robot_run
 
 __all__ = [
@@ -30,7 +36,7 @@ __all__ = [
     'RobotRun',
     'accuracy',
     'check_distance',
-    'five_of_a_die',
+    'five_push_pattern',
     'holds_long_pushes',
     'in_push_frame',
     'input_fault',

@@ -101,6 +101,25 @@ class PushSet:
         return digest.hexdigest()
 
 
+FIVE_PUSHES = np.array([[0.0, 0.0], [-0.5, -30.0], [0.5, -30.0], [-0.5, 30.0], [0.5, 30.0]])
+"""(5, 2) contact offsets [half faces] and angles to the normal [deg]."""
+
+
+def five_push_pattern(half_face: float) -> Array:
+    """The smallest training set of the paper, in the pattern of the five of a die.
+
+    One push at the middle of the face along its normal, and four half-way to its ends, 30 degrees
+    to either side. Source: Bauza, Hogan and Rodriguez 2018, section 6.
+
+    Args:
+        half_face: half the length of the pushed face [m].
+
+    Returns:
+        (5, 2) contact offsets p_y [m] and directions beta [rad].
+    """
+    return np.asarray(FIVE_PUSHES * [half_face, math.radians(1.0)] + [0.0, math.pi / 2.0])
+
+
 def input_fault(p_y: Array, beta: Array) -> tuple[int, str] | None:
     """The first push that no model can answer for.
 

@@ -16,7 +16,7 @@ from push_gp.models import (
     MEAN_FUNCTIONS,
     GpModel,
     Rows,
-    die_rows,
+    five_push_rows,
     nested_rows,
     random_rows,
     save_model,
@@ -45,26 +45,30 @@ def parser() -> Parser:
     which.add_argument(
         '--pick',
         choices=['die'],
-        help='the five pushes nearest to the five of a die: into the middle of the face, and 30 '
-        'degrees to either side half-way to its ends',
+        help='the five pushes nearest to the pattern of the five of a die: at the middle of the '
+        'face along its normal, and half-way to its ends 30 degrees to either side',
     )
     arguments.add_argument('--seed', type=int, help='of the random choice (default 0)')
     arguments.add_argument(
         '--nested',
         action='store_true',
-        help='choose such that fewer --points of the same seed are part of more',
+        help='with the same seed, fewer --points are part of more',
     )
     arguments.add_argument(
         '--mean',
         choices=MEAN_FUNCTIONS,
         default='zero',
-        help='what to expect where no push was seen: nothing, or a fitted motion cone',
+        help='prior mean: no motion, or a fitted motion cone (default zero)',
     )
     return arguments
 
 
 def work(arguments: argparse.Namespace) -> None:
-    """Trains, saves and says what came out."""
+    """Trains, saves and prints a summary.
+
+    Raises:
+        InputError: the file or the choice of pushes is wrong, or the model cannot be written.
+    """
     check_place(arguments.output)
     pushes = read_pushes(arguments.data)
     rows = chosen_rows(pushes, arguments)
@@ -79,15 +83,15 @@ def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
     """Row numbers of the pushes to train on.
 
     Raises:
-        InputError: the set does not hold them.
+        InputError: the file does not have them.
     """
     random = arguments.subset is None and not arguments.pick
     if not random and (arguments.seed is not None or arguments.nested):
-        raise InputError('--seed and --nested are of a random choice, which was not asked for')
+        raise InputError('--seed and --nested need a random choice: leave out --subset and --pick')
     if arguments.subset is not None:
         return subset_rows(pushes, arguments.subset)
     if arguments.pick:
-        return die_rows(pushes)
+        return five_push_rows(pushes)
     seed = arguments.seed or 0
     if seed < 0:
         raise InputError(f'--seed is {seed}, must not be negative')

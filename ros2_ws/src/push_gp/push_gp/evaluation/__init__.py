@@ -1,22 +1,22 @@
-"""Errors of a model on held-out pushes: figures and pages."""
+"""Evaluation of a model on measured pushes: errors, learning curve, pages."""
 
+from push_gp.evaluation.curve import METHODS, CurvePoint, curve_sizes, learning_curve
 from push_gp.evaluation.evaluation import (
     Evaluation,
     RolloutEvaluation,
     evaluate,
     rollout_evaluation,
 )
-from push_gp.evaluation.learning_curve import METHODS, Place, learning_curve, sizes_within
 from push_gp.evaluation.summary import training_summary
 
 __all__ = [
     'METHODS',
+    'CurvePoint',
     'Evaluation',
-    'Place',
     'RolloutEvaluation',
+    'curve_sizes',
     'evaluate',
     'learning_curve',
     'rollout_evaluation',
-    'sizes_within',
     'training_summary',
 ]

@@ -1,4 +1,4 @@
-"""The learning curve as a picture."""
+"""The learning curve as an HTML page."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -7,7 +7,7 @@ import numpy as np
 import plotly.graph_objects as go
 from push_report.page import COLOURS, write_page
 
-from push_gp.evaluation.learning_curve import LIMIT_SURFACE, METHODS, Place
+from push_gp.evaluation.curve import LIMIT_SURFACE, METHODS, CurvePoint
 
 NAMES = {
     'zero': 'GP, zero mean',
@@ -16,30 +16,30 @@ NAMES = {
 }
 
 
-def write_curve_page(path: Path, places: Sequence[Place], lines: Sequence[str]) -> None:
+def write_curve_page(path: Path, points: Sequence[CurvePoint], lines: Sequence[str]) -> None:
     """Writes the page.
 
     Args:
         path: of the HTML file.
-        places: of the curve.
-        lines: the figures in words.
+        points: of the curve, all sizes and methods.
+        lines: the same as text, above the figure.
 
     Raises:
         InputError: the file cannot be written.
     """
-    write_page(path, 'Learning curve', lines, [curve_figure(places)])
+    write_page(path, 'Learning curve', lines, [curve_figure(points)])
 
 
-def curve_figure(places: Sequence[Place]) -> go.Figure:
+def curve_figure(points: Sequence[CurvePoint]) -> go.Figure:
     """Median and quartiles over the seeds of each method."""
     figure = go.Figure()
     for colour, method in zip(COLOURS, METHODS, strict=True):
-        mine = [place for place in places if place.method == method]
-        points = [place.points for place in mine]
-        low, median, high = np.quantile([place.nmse for place in mine], [0.25, 0.5, 0.75], axis=1)
+        mine = [point for point in points if point.method == method]
+        sizes = [point.points for point in mine]
+        low, median, high = np.quantile([point.nmse for point in mine], [0.25, 0.5, 0.75], axis=1)
         spread = {'array': high - median, 'arrayminus': median - low}
         figure.add_scatter(
-            x=points, y=median, error_y=spread, name=NAMES[method], line={'color': colour}
+            x=sizes, y=median, error_y=spread, name=NAMES[method], line={'color': colour}
         )
     figure.update_xaxes(title_text='training pushes', type='log')
     figure.update_yaxes(title_text='mean NMSE, push frame', type='log')

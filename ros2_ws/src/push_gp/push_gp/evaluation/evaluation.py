@@ -1,4 +1,4 @@
-"""The figures of one model on one file of pushes."""
+"""Errors of one model on one file of pushes."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -8,33 +8,33 @@ from push_core.common import InputError
 from push_core.data import Accuracy, EndErrors, LongPushes, PushSet, accuracy, per_output
 from push_core.geometry import Array
 
-from push_gp.evaluation.calibration import Calibration, calibration
 from push_gp.evaluation.rollout import rolled_out
+from push_gp.evaluation.uncertainty import UncertaintyScore, score_uncertainty
 from push_gp.models import GpModel, PushModel
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Figures of a model on pushes.
+    """Errors of a model on short pushes.
 
     Attributes:
         model_id: of the model.
         accuracy: of its mean.
-        calibration: of its distribution; None for a model without one.
-        trained_on: how many of the pushes are in its training set, which flatters it.
+        uncertainty: of its variances; None for a model without them.
+        trained_on: number of these pushes in its training set; they make the errors too small.
     """
 
     model_id: str
     accuracy: Accuracy
-    calibration: Calibration | None
+    uncertainty: UncertaintyScore | None
     trained_on: int
 
     def as_json(self) -> dict[str, Any]:
         """The block of accuracy figures with `nlpd` and `coverage_95` (null without variances)."""
         block: dict[str, Any] = {**self.accuracy.as_json(), 'nlpd': None, 'coverage_95': None}
-        if self.calibration is not None:
-            block['nlpd'] = per_output(self.calibration.nlpd)
-            block['coverage_95'] = per_output(self.calibration.coverage_95)
+        if self.uncertainty is not None:
+            block['nlpd'] = per_output(self.uncertainty.nlpd)
+            block['coverage_95'] = per_output(self.uncertainty.coverage_95)
         return {'model': self.model_id, **block, 'trained_on': self.trained_on}
 
 
@@ -66,7 +66,7 @@ class RolloutEvaluation:
 
 
 def rollout_evaluation(model: PushModel, pushes: LongPushes) -> RolloutEvaluation:
-    """Compares a model, step by step, with where long pushes ended."""
+    """Rolls a model out along long pushes and compares their ends."""
     errors = pushes.errors(rolled_out(model, pushes))
     return RolloutEvaluation(model.info.model_id, pushes, errors)
 
@@ -79,13 +79,13 @@ def evaluate(model: PushModel, pushes: PushSet) -> Evaluation:
     """
     if pushes.distance != model.distance:
         raise InputError(
-            f'the model answers for pushes of {model.distance * 1e3:g} mm, '
+            f'the model predicts pushes of {model.distance * 1e3:g} mm, '
             f'these are of {pushes.distance * 1e3:g} mm'
         )
     predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
-    told = accuracy(predicted, pushes)
+    errors = accuracy(predicted, pushes)
     shared = _shared(model.pushes, pushes) if isinstance(model, GpModel) else 0
-    return Evaluation(model.info.model_id, told, calibration(model, pushes), shared)
+    return Evaluation(model.info.model_id, errors, score_uncertainty(model, pushes), shared)
 
 
 def _shared(training: PushSet, pushes: PushSet) -> int:

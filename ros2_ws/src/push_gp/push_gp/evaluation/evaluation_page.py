@@ -1,4 +1,4 @@
-"""Pictures of how a model tells measured pushes."""
+"""HTML page of a model on measured pushes: scatter plots and calibration."""
 
 import math
 from collections.abc import Sequence
@@ -26,9 +26,9 @@ def write_evaluation_page(
 
     Args:
         path: of the HTML file.
-        model: that is evaluated.
-        pushes: measured, to compare it with.
-        lines: the figures in words.
+        model: to evaluate.
+        pushes: measured.
+        lines: the errors as text, above the figures.
 
     Raises:
         InputError: the file cannot be written.
@@ -44,11 +44,13 @@ def _against(predicted: Array, pushes: PushSet) -> go.Figure:
     figure = make_subplots(1, 3, subplot_titles=TITLES)
     for column in range(3):
         measured = pushes.displacement[:, column] / READABLE[column]
-        told = predicted[:, column] / READABLE[column]
+        expected = predicted[:, column] / READABLE[column]
         ends = [measured.min(), measured.max()]
         dots = {'size': 3, 'color': COLOURS[column]}
         line = {'color': 'black', 'width': 1}
-        figure.add_scatter(x=measured, y=told, mode='markers', marker=dots, row=1, col=column + 1)
+        figure.add_scatter(
+            x=measured, y=expected, mode='markers', marker=dots, row=1, col=column + 1
+        )
         figure.add_scatter(x=ends, y=ends, mode='lines', line=line, row=1, col=column + 1)
     figure.update_xaxes(title_text='measured').update_yaxes(title_text='predicted', col=1)
     return figure.update_layout(title_text='Predicted against measured', showlegend=False)
@@ -57,32 +59,32 @@ def _against(predicted: Array, pushes: PushSet) -> go.Figure:
 def _over_inputs(predicted: Array, pushes: PushSet) -> go.Figure:
     figure = make_subplots(1, 3, subplot_titles=TITLES, horizontal_spacing=0.1)
     for column in range(3):
-        left = (pushes.displacement - predicted)[:, column] / READABLE[column]
-        reach = float(np.quantile(np.abs(left), 0.98))
+        error = (pushes.displacement - predicted)[:, column] / READABLE[column]
+        reach = float(np.quantile(np.abs(error), 0.98))
         bar = {'x': 0.27 + 0.367 * column, 'len': 0.9, 'thickness': 10}
-        dots = {'size': 4, 'color': left, 'colorscale': DIVERGING, 'cmid': 0.0}
+        dots = {'size': 4, 'color': error, 'colorscale': DIVERGING, 'cmid': 0.0}
         dots |= {'cmin': -reach, 'cmax': reach, 'colorbar': bar}
         x, y = 1e3 * pushes.p_y, np.degrees(pushes.beta)
         figure.add_scatter(x=x, y=y, mode='markers', marker=dots, row=1, col=column + 1)
     figure.update_xaxes(title_text='p_y [mm]').update_yaxes(title_text='beta [deg]', col=1)
-    return figure.update_layout(title_text='Measured less predicted', showlegend=False)
+    return figure.update_layout(title_text='Measured minus predicted', showlegend=False)
 
 
 def _calibration(model: GpModel, predicted: Array, pushes: PushSet) -> go.Figure:
-    """Share of pushes within the interval of each level; the model's own 95 % one as a dot."""
+    """Coverage of normal intervals of each level; a dot is that of the model's 95 % interval."""
     spread = np.sqrt(model.variance(pushes.p_y, pushes.beta) + model.noise_variance)
-    off = np.abs(pushes.displacement - predicted) / spread
+    deviations = np.abs(pushes.displacement - predicted) / spread
     reach = np.array([NormalDist().inv_cdf(0.5 + level / 2.0) for level in LEVELS])
     figure = go.Figure()
     figure.add_scatter(x=[0, 1], y=[0, 1], mode='lines', line={'color': 'black'}, name='ideal')
     for column, name in enumerate(OUTPUTS):
-        shares = np.mean(off[:, column] <= reach[:, None], axis=1)
+        shares = np.mean(deviations[:, column] <= reach[:, None], axis=1)
         line = {'color': COLOURS[column]}
         figure.add_scatter(x=LEVELS, y=shares, mode='lines', line=line, name=name)
-        own = float(np.mean(off[:, column] <= model.interval_95[column]))
+        own = float(np.mean(deviations[:, column] <= model.interval_95[column]))
         figure.add_scatter(x=[0.95], y=[own], mode='markers', marker=line, showlegend=False)
     figure.update_xaxes(title_text='level of the interval, normal errors')
-    figure.update_yaxes(title_text='share of pushes within')
+    figure.update_yaxes(title_text='share of pushes in the interval')
     half = 1.96 * math.sqrt(0.95 * 0.05 / len(pushes))
-    title = f'Calibration (at 95 %, chance alone makes ±{100 * half:.1f} %)'
+    title = f'Calibration (sampling error at 95 %: ±{100 * half:.1f} %)'
     return figure.update_layout(title_text=title)

@@ -1,4 +1,4 @@
-"""A one-step model, step by step along a long push."""
+"""Rolls a one-step model out along long pushes."""
 
 import math
 
@@ -9,13 +9,13 @@ from push_core.geometry import Array, twist_of
 from push_gp.models import PushModel
 
 LONGEST_STEP = 1e-3
-"""[m] of the tip, in each of which the answer of the model is taken for a rate."""
+"""Travel of the tip in one step [m]; the prediction of the model is scaled to it."""
 
 
 def rolled_out(model: PushModel, pushes: LongPushes) -> Array:
-    """End poses (n, 3) of n long pushes as the model has them.
+    """Predicted end poses (n, 3) of n long pushes.
 
-    The tip goes straight; while it is off the face, or leaves it, the object stays where it is.
+    The tip moves straight. The object does not move while the tip is off the face or moves away.
     """
     pose = pushes.start.copy()
     travel = pushes.tip_end - pushes.tip_start
@@ -32,7 +32,7 @@ def rolled_out(model: PushModel, pushes: LongPushes) -> Array:
 
 
 def _moved(model: PushModel, pushes: LongPushes, pose: Array, tip: Array) -> Array:
-    """Twists (n, 3) in the body frame, times the time that one distance of the model takes."""
+    """Twists (n, 3) in the body frame, times the duration of one push of the model."""
     cos, sin = np.cos(pose[:, 2]), np.sin(pose[:, 2])
     x, y = (tip - pose[:, :2]).T
     p_y = cos * y - sin * x

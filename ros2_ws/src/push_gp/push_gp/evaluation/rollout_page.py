@@ -1,4 +1,4 @@
-"""Pictures of how a model, step by step, tells where long pushes end."""
+"""HTML page of the end errors of a model that is rolled out along long pushes."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,21 +12,21 @@ from push_gp.evaluation.evaluation import RolloutEvaluation
 SHOWN = (('position', 'position [mm]', 1e3), ('heading', 'heading [deg]', 180.0 / np.pi))
 
 
-def write_rollout_page(path: Path, found: RolloutEvaluation, lines: Sequence[str]) -> None:
+def write_rollout_page(path: Path, result: RolloutEvaluation, lines: Sequence[str]) -> None:
     """Writes the page.
 
     Args:
         path: of the HTML file.
-        found: what is shown.
-        lines: the figures in words.
+        result: errors at the ends.
+        lines: the errors as text, above the figure.
 
     Raises:
         InputError: the file cannot be written.
     """
     figure = make_subplots(1, 2, subplot_titles=[title for _, title, _ in SHOWN])
-    groups = (('on the face', found.pushes.on_face), ('off it', ~found.pushes.on_face))
+    groups = (('on the face', result.pushes.on_face), ('off it', ~result.pushes.on_face))
     for column, (kind, _, scale) in enumerate(SHOWN, start=1):
-        errors = scale * getattr(found.errors, kind)
+        errors = scale * getattr(result.errors, kind)
         for colour, (name, chosen) in zip(COLOURS, groups, strict=False):
             figure.add_histogram(
                 x=errors[chosen],
@@ -37,5 +37,5 @@ def write_rollout_page(path: Path, found: RolloutEvaluation, lines: Sequence[str
                 col=column,
             )
     figure.update_layout(title_text='Errors at the end of each push', barmode='stack')
-    title = f'Model {found.model_id} rolled out along {len(found.pushes)} pushes'
+    title = f'Model {result.model_id} rolled out along {len(result.pushes)} pushes'
     write_page(path, title, lines, [figure])

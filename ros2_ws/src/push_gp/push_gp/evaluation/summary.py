@@ -1,8 +1,9 @@
-"""What a user reads after training."""
+"""The summary that `train` prints."""
 
 import math
 from collections.abc import Iterator
 
+from push_core.common import plain_table
 from push_core.data import OUTPUTS, READABLE, PushSet, accuracy
 
 from push_gp.models import GpModel
@@ -11,34 +12,35 @@ UNITS = ('mm', 'mm', 'deg')
 
 
 def training_summary(model: GpModel, rest: PushSet | None) -> str:
-    """A few lines about a model.
+    """Hyperparameters of a trained model, and its errors on the pushes that it was not trained on.
 
     Args:
         model: just trained.
-        rest: pushes that it was not trained on, where there are any.
+        rest: the other pushes of the file; None if there are none.
     """
-    lines = [*_hyperparameters(model)]
+    lines = plain_table(_hyperparameters(model))
     if rest is not None:
         lines.append(_errors(model, rest))
     return '\n'.join(lines)
 
 
-def _hyperparameters(model: GpModel) -> Iterator[str]:
-    yield f'{"":8}{"length p_y":>12}{"length beta":>14}{"signal":>13}{"noise":>13}'
+def _hyperparameters(model: GpModel) -> Iterator[tuple[str, ...]]:
+    yield '', 'length p_y', 'length beta', 'signal', 'noise'
     for name, process, scale, unit in zip(OUTPUTS, model.processes, READABLE, UNITS, strict=True):
         its = process.hyperparameters
         across, around = its.lengthscales[0] * 1e3, math.degrees(its.lengthscales[1])
         signal, noise = its.signal_std / scale, its.noise_std / scale
         yield (
-            f'{name:8}{across:9.1f} mm{around:10.1f} deg{signal:9.3f} {unit:3}{noise:9.3f} {unit}'
+            *(name, f'{across:.1f} mm', f'{around:.1f} deg'),
+            *(f'{signal:.3f} {unit}', f'{noise:.3f} {unit}'),
         )
 
 
 def _errors(model: GpModel, rest: PushSet) -> str:
     predicted, _ = model.evaluate(rest.p_y, rest.beta)
-    told = accuracy(predicted, rest)
-    dx, dy, dtheta = told.rmse / READABLE
+    errors = accuracy(predicted, rest)
+    dx, dy, dtheta = errors.rmse / READABLE
     return (
-        f'on the other {told.n} pushes: rmse {dx:.3f} mm, {dy:.3f} mm, {dtheta:.3f} deg; '
-        f'NMSE {told.nmse_push_frame.mean():.4f} in the push frame'
+        f'on the other {errors.n} pushes: rmse {dx:.3f} mm, {dy:.3f} mm, {dtheta:.3f} deg; '
+        f'NMSE {errors.nmse_push_frame.mean():.4f} in the push frame'
     )

@@ -1,7 +1,8 @@
-"""The squared exponential kernel as a sum of products of few functions: k(a, b) = s(a)^T s(b).
+"""The squared exponential kernel as a short sum of products: k(a, b) = s(a)^T s(b).
 
-The functions are the kernel's own modes over the domain, so that no smaller number of functions
-gives it to round-off. Source: Rasmussen and Williams 2006, section 4.3.
+The functions s are the modes (eigenfunctions) of the kernel over the domain: the shortest
+expansion that reproduces the kernel to round-off. Source: Rasmussen and Williams 2006, section
+4.3.
 """
 
 from collections.abc import Sequence
@@ -13,7 +14,7 @@ from push_core.geometry import Array
 from push_gp.low_rank.chebyshev import Interval
 
 ROUND_OFF = 1e-15
-"""Terms of the kernel of unit signal that no sum in double precision notices."""
+"""Terms of the kernel of unit signal that are below double precision."""
 
 
 @dataclass(frozen=True)
@@ -22,9 +23,9 @@ class KernelModes:
 
     Attributes:
         intervals: of both inputs.
-        modes: for each input, (m, k) polynomials by modes; orthonormal.
+        modes: for each input, (m, k) orthonormal modes as Chebyshev coefficients.
         values: for each input, (k,) eigenvalues of the modes.
-        products: (2, r) which modes each product is made of.
+        products: (2, r) indices of the two modes in each product.
     """
 
     intervals: Sequence[Interval]
@@ -39,12 +40,12 @@ class KernelModes:
         lengthscales: Sequence[float],
         cut_off: float = ROUND_OFF,
     ) -> 'KernelModes':
-        """The modes that matter.
+        """The modes above a threshold.
 
         Args:
-            intervals: where the two inputs lie.
+            intervals: domains of the two inputs.
             lengthscales: of the two inputs.
-            cut_off: terms of the kernel of unit signal that are smaller are left out.
+            cut_off: smallest term of the kernel of unit signal that is kept.
         """
         (first, across), (second, around) = (
             _modes(interval.kernel(lengthscale, interval.enough(lengthscale))[0], cut_off)
@@ -57,7 +58,7 @@ class KernelModes:
         return int(self.products.shape[1])
 
     def products_at(self, points: Array) -> Array:
-        """Products (n, r) of the modes, not scaled, at (n, 2) points."""
+        """Products (n, r) of the unscaled modes at (n, 2) points."""
         first, second = (
             (interval.polynomials(column, len(modes)) @ modes)[:, chosen]
             for interval, column, modes, chosen in zip(
@@ -68,7 +69,7 @@ class KernelModes:
         return np.asarray(first)
 
     def features(self, points: Array) -> Array:
-        """Features (n, r) at (n, 2) points, whose inner products are the kernel of unit signal."""
+        """Features (n, r) at (n, 2) points; their inner products are the kernel of unit signal."""
         first, second = (
             values[chosen] for values, chosen in zip(self.values, self.products, strict=True)
         )
@@ -76,7 +77,7 @@ class KernelModes:
 
 
 def _modes(kernel: Array, cut_off: float) -> tuple[Array, Array]:
-    """Eigenvalues (k,) that matter of coefficients (m, m), and their vectors (m, k)."""
+    """Eigenvalues (k,) above `cut_off` of coefficients (m, m), and their vectors (m, k)."""
     values, vectors = np.linalg.eigh(kernel)
     kept = values > cut_off
     return values[kept], vectors[:, kept]

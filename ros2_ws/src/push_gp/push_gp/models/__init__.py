@@ -1,13 +1,11 @@
-"""Models of a push: the interface, the motion cone, the Gaussian processes, and their files."""
+"""Models of a push: interface, motion cone, Gaussian processes, model files."""
 
 from push_gp.models.analytical_model import ANALYTICAL, NOMINAL_DISTANCE, AnalyticalModel
 from push_gp.models.gp_model import GpModel, residuals
 from push_gp.models.mean_function import MEAN_FUNCTIONS, ConeMean, MeanFunction, ZeroMean
 from push_gp.models.model import ModelInfo, PushModel
-from push_gp.models.model_file import load_model, save_model
-from push_gp.models.model_format import VERSION
-from push_gp.models.model_source import model_named
-from push_gp.models.sampling import Rows, die_rows, nested_rows, random_rows, subset_rows
+from push_gp.models.model_file import VERSION, load_model, model_named, save_model
+from push_gp.models.sampling import Rows, five_push_rows, nested_rows, random_rows, subset_rows
 from push_gp.models.sealed_archive import read_sealed
 
 __all__ = [
@@ -23,7 +21,7 @@ __all__ = [
     'PushModel',
     'Rows',
     'ZeroMean',
-    'die_rows',
+    'five_push_rows',
     'load_model',
     'model_named',
     'nested_rows',

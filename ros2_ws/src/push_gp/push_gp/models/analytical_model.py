@@ -1,4 +1,4 @@
-"""The motion cone over an ellipsoidal limit surface, behind the seam of the learned model."""
+"""The motion cone of an ellipsoidal limit surface, with the interface of the learned model."""
 
 import hashlib
 import json
@@ -15,13 +15,13 @@ from push_core.physics import MotionCone, Slider
 from push_gp.models.model import ModelInfo
 
 ANALYTICAL = 'analytical'
-"""What a user calls it, where others name a model file."""
+"""Its name on command lines and in parameters, in place of the path of a model file."""
 
 NOMINAL_DISTANCE = 0.004
 """Travel of the measured pushes [m]: 0.2 s at 20 mm/s."""
 
 _GRAZING = 0.01
-"""Angle [rad] to the face below which a tip no longer pushes."""
+"""Smallest angle [rad] between face and push direction."""
 
 
 @dataclass(frozen=True)
@@ -40,16 +40,16 @@ class AnalyticalModel:
         return displacement_of(rate * self.distance, jacobian * self.distance)
 
     def variance(self, p_y: Array, beta: Array) -> Array:
-        """The motion cone knows no doubt.
+        """The motion cone has no variance.
 
         Raises:
             RunError: always.
         """
-        raise RunError('the analytical model states no variance; ask without want_variance')
+        raise RunError('the analytical model has no variance; call without want_variance')
 
     @cached_property
     def info(self) -> ModelInfo:
-        """See `PushModel.info`; it knows the whole face and all directions into it."""
+        """See `PushModel.info`; the domain is the whole face and all directions into it."""
         half = self.slider.side / 2.0
         return ModelInfo(
             model_hash=self._hash(),

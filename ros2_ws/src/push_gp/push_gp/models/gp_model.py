@@ -1,4 +1,4 @@
-"""The learned model: a mean function and one Gaussian process per output over what it leaves."""
+"""The learned model: a mean function, and one Gaussian process per output for the residuals."""
 
 import hashlib
 from collections.abc import Sequence
@@ -13,14 +13,14 @@ from push_gp.low_rank import Process, conditioned
 from push_gp.models.mean_function import ConeMean, MeanFunction
 from push_gp.models.model import ModelInfo
 from push_gp.models.posterior_mean import PosteriorMean
-from push_gp.models.thinning import kept_rows
+from push_gp.models.sampling import spread_rows
 from push_gp.regression import Hyperparameters
 
 NORMAL_95 = 1.959963984540054
-"""Standard deviations on each side of the mean that hold 95 % of a normal distribution."""
+"""95 % of a normal distribution lie within so many standard deviations of its mean."""
 
-BELIEF_IN_NORMAL = 200
-"""Pushes that count as much as the belief that errors are normal."""
+NORMAL_PRIOR = 200
+"""Number of pushes that outweigh the assumption of normally distributed errors."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class GpModel:
 
     Attributes:
         pushes: the training set.
-        mean_function: what they expect far from every push.
+        mean_function: what they predict far from all pushes.
         processes: for dx [m], dy [m] and dtheta [rad].
     """
 
@@ -51,13 +51,13 @@ class GpModel:
             pushes: the training set, n pushes.
             mean_function: of the same distance.
             hyperparameters: of dx, dy and dtheta.
-            weights: (3, n) where they are known already.
+            weights: (3, n) if known.
         """
-        left = residuals(pushes, mean_function)
+        outputs = residuals(pushes, mean_function)
         known = [None] * 3 if weights is None else list(weights)
         processes = [
-            conditioned(pushes.inputs, left[output], hyperparameters[output], weight)
-            for output, weight in enumerate(known)
+            conditioned(pushes.inputs, *of_output)
+            for of_output in zip(outputs, hyperparameters, known, strict=True)
         ]
         return cls(pushes, mean_function, tuple(processes))
 
@@ -68,7 +68,9 @@ class GpModel:
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """See `PushModel.evaluate`."""
-        return self._posterior_mean.evaluate(np.column_stack((p_y, beta)))
+        prior, prior_jacobian = self.mean_function.evaluate(p_y, beta)
+        mean, jacobian = self._posterior_mean.evaluate(np.column_stack((p_y, beta)))
+        return prior + mean, prior_jacobian + jacobian
 
     def variance(self, p_y: Array, beta: Array) -> Array:
         """See `PushModel.variance`."""
@@ -77,41 +79,41 @@ class GpModel:
 
     @property
     def noise_variance(self) -> Array:
-        """(3,) variances of a measurement about the function [m^2, m^2, rad^2]."""
+        """(3,) variances of the measurement noise [m^2, m^2, rad^2]."""
         return np.array([process.hyperparameters.noise_std**2 for process in self.processes])
 
     @cached_property
     def interval_95(self) -> Array:
-        """(3,) standard deviations of a measurement on each side of the mean that hold 95 %.
+        """(3,) half width of the 95 % interval of a measurement, in standard deviations.
 
-        The errors of real pushes have heavier tails than a normal distribution. What holds 95 % of
-        the training pushes, each predicted by the others, is drawn towards the normal value where
-        they are few.
+        The errors of real pushes have heavier tails than a normal distribution. The half width is
+        the 95 % quantile of the leave-one-out errors of the training pushes, drawn towards the
+        normal value if there are few.
         """
-        trust = len(self.pushes) / (len(self.pushes) + BELIEF_IN_NORMAL)
+        trust = len(self.pushes) / (len(self.pushes) + NORMAL_PRIOR)
         errors = [process.left_out() for process in self.processes]
         found = [np.quantile(np.abs(error) / np.sqrt(spread), 0.95) for error, spread in errors]
         return NORMAL_95 + trust * (np.array(found) - NORMAL_95)
 
     def extended(self, pushes: PushSet) -> 'GpModel':
-        """The model with further pushes at the same hyperparameters.
+        """The model with more pushes at the same hyperparameters.
 
         Raises:
             InputError: the pushes cover another distance.
         """
         joined = self.pushes.joined(pushes)
-        left = residuals(pushes, self.mean_function)
+        added = residuals(pushes, self.mean_function)
         processes = [
             process.extended(pushes.inputs, outputs)
-            for process, outputs in zip(self.processes, left, strict=True)
+            for process, outputs in zip(self.processes, added, strict=True)
         ]
         return GpModel(joined, self.mean_function, tuple(processes))
 
     def thinned(self, most: int) -> 'GpModel':
-        """The model of at most so many of its pushes, at the same hyperparameters."""
+        """The model of at most `most` of its pushes, at the same hyperparameters."""
         if len(self.pushes) <= most:
             return self
-        pushes = self.pushes.take(kept_rows(self.pushes.inputs, most))
+        pushes = self.pushes.take(spread_rows(self.pushes.inputs, most))
         hyperparameters = [process.hyperparameters for process in self.processes]
         return GpModel.conditioned(pushes, self.mean_function, hyperparameters)
 
@@ -135,7 +137,7 @@ class GpModel:
 
     @cached_property
     def _posterior_mean(self) -> PosteriorMean:
-        return PosteriorMean(self.processes, self.mean_function)
+        return PosteriorMean(self.processes)
 
     def _hash(self) -> str:
         digest = hashlib.sha256(self.pushes.sha256().encode())
@@ -154,7 +156,7 @@ class GpModel:
 
 
 def residuals(pushes: PushSet, mean_function: MeanFunction) -> Array:
-    """(3, n) displacements over what the mean function expects, one contiguous row an output."""
+    """(3, n) displacements minus the mean function, one contiguous row per output."""
     expected, _ = mean_function.evaluate(pushes.p_y, pushes.beta)
     return np.ascontiguousarray((pushes.displacement - expected).T)
 

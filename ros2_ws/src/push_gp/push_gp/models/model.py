@@ -1,4 +1,4 @@
-"""What every model of pushing can be asked, whatever it is made of."""
+"""The interface of every model of pushing."""
 
 from dataclasses import dataclass
 from typing import Protocol
@@ -8,17 +8,17 @@ from push_core.geometry import Array
 
 @dataclass(frozen=True)
 class ModelInfo:
-    """What a model is, for people and for `push_msgs/ModelInfo`.
+    """Description of a model, as in `push_msgs/ModelInfo`.
 
     Attributes:
-        model_hash: sha256 of everything that determines its answers.
+        model_hash: sha256 of everything that determines its predictions.
         kind: 'gp' or 'analytical'.
         mean_function: 'zero' or 'analytical'.
         points: training pushes; 0 for the analytical model.
         training_set_hash: sha256 of the training pushes; '' for the analytical model.
-        distance: travel of the pusher that one answer covers [m].
-        p_y_domain: lowest and highest contact offset that it knows [m].
-        beta_domain: lowest and highest push direction that it knows [rad].
+        distance: travel of the pusher in one push [m].
+        p_y_domain: lowest and highest contact offset of its training data [m].
+        beta_domain: lowest and highest push direction of its training data [rad].
         lengthscales: (3, 2) outputs by inputs [m, rad]; zeros for the analytical model.
         signal_std: (3,) [m, m, rad]; zeros for the analytical model.
         noise_std: (3,) [m, m, rad]; zeros for the analytical model.
@@ -43,15 +43,15 @@ class ModelInfo:
 
 
 class PushModel(Protocol):
-    """A model that answers for batches of pushes of one distance."""
+    """Predicts the displacements of pushes of one distance, in batches."""
 
     @property
     def distance(self) -> float:
-        """Travel of the pusher that one answer covers [m]."""
+        """Travel of the pusher in one push [m]."""
 
     @property
     def info(self) -> ModelInfo:
-        """What it is."""
+        """Its description."""
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Expected displacement and its Jacobian.
@@ -66,8 +66,8 @@ class PushModel(Protocol):
         """
 
     def variance(self, p_y: Array, beta: Array) -> Array:
-        """Variances (n, 3) of the mean, without the noise of a measurement.
+        """Variances (n, 3) of the latent function; measurement noise not included.
 
         Raises:
-            RunError: the model states none.
+            RunError: the model has none.
         """

@@ -1,4 +1,4 @@
-"""The model file: what it says, and how a `GpModel` goes in and comes out."""
+"""Model files: reading, writing, and models by name."""
 
 import dataclasses
 from pathlib import Path
@@ -10,16 +10,45 @@ from push_core.data import OUTPUTS, PushSet
 from push_core.geometry import Array
 from push_core.physics import Slider
 
-from push_gp.models.analytical_model import AnalyticalModel
+from push_gp.models.analytical_model import ANALYTICAL, NOMINAL_DISTANCE, AnalyticalModel
 from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ConeMean, MeanFunction, ZeroMean
-from push_gp.models.model_format import CONVENTIONS, FORMAT, VERSION
+from push_gp.models.model import PushModel
 from push_gp.models.sealed_archive import read_sealed, write_sealed
 from push_gp.regression import Hyperparameters
 
+FORMAT = 'push_gp model'
+VERSION = 3
+CONVENTIONS = {
+    'units': 'metres and radians',
+    'frame': 'body frame at the start of the push, x along the inward normal of the pushed face',
+    'inputs': 'p_y: contact offset along the face; beta = atan2(v_n, v_t): push direction',
+    'outputs': 'dx, dy, dtheta: displacement of the centre and rotation by a push of distance_m',
+    'kernel': "signal_std^2 exp(-sum_j (x_j - x_j')^2 / lengthscale_j^2), noise_std^2 added",
+    'arrays': 'inputs (n, 2), displacement (n, 3), weights (3, n)',
+}
+
+
+def model_named(
+    name: str, slider: Slider | None = None, distance: float = NOMINAL_DISTANCE
+) -> PushModel:
+    """The model that a user names.
+
+    Args:
+        name: path of a model file, or 'analytical'.
+        slider: of the analytical model; default: the measured square.
+        distance: travel of the pusher in one push of the analytical model [m].
+
+    Raises:
+        InputError: there is no such model file, or it is not valid.
+    """
+    if name == ANALYTICAL:
+        return AnalyticalModel(slider or Slider(), distance)
+    return load_model(Path(name))
+
 
 def save_model(path: Path, model: GpModel) -> None:
-    """Writes a model; whole or not at all.
+    """Writes a model atomically.
 
     Raises:
         InputError: the file cannot be written.
@@ -33,26 +62,25 @@ def save_model(path: Path, model: GpModel) -> None:
 
 
 def load_model(path: Path) -> GpModel:
-    """Reads a model that answers exactly as the saved one did.
+    """Reads a model; its predictions equal those of the saved one bit for bit.
 
     Raises:
         InputError: the file is missing, damaged, of another kind or version, or inconsistent.
     """
     header, arrays = read_sealed(path)
     if header.get('format') != FORMAT:
-        raise InputError(f'{path}: is no model file of push_gp')
+        raise InputError(f'{path}: is not a model file of push_gp')
     if header.get('version') != VERSION:
         raise InputError(
-            f'{path}: has format version {header.get("version")}, this program reads {VERSION}; '
-            'train it again'
+            f'{path}: has format version {header.get("version")}, not {VERSION}; train it again'
         )
     try:
         model = _model(header, arrays)
     except (InputError, KeyError, TypeError, ValueError) as error:
         raise InputError(f'{path}: is an inconsistent model file ({error!r})') from error
-    told = _header(model)
+    expected = _header(model)
     for name in ('conventions', 'training_set_sha256', 'model_sha256'):
-        if header.get(name) != told[name]:
+        if header.get(name) != expected[name]:
             raise InputError(f'{path}: its content does not match its {name}; train it again')
     return model
 

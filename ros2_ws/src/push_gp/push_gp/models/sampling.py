@@ -1,15 +1,18 @@
-"""Which pushes of a set a model is trained on."""
+"""Selection of the pushes that a model is trained on."""
 
 import numpy as np
 from numpy.typing import NDArray
 from push_core.common import InputError
-from push_core.data import HALF_FACE, PushSet, five_of_a_die
+from push_core.data import HALF_FACE, PushSet, five_push_pattern
+from push_core.geometry import Array
 
 Rows = NDArray[np.intp]
+SCALE = np.array([HALF_FACE, 1.0])
+"""Distances between pushes are measured in half faces [m] and radians."""
 
 
 def random_rows(pushes: PushSet, points: int, seed: int) -> Rows:
-    """Row numbers of a random selection; each number of points is a draw of its own.
+    """Row numbers of a random selection; each number of points is drawn independently.
 
     Raises:
         InputError: the set holds fewer pushes.
@@ -19,7 +22,7 @@ def random_rows(pushes: PushSet, points: int, seed: int) -> Rows:
 
 
 def nested_rows(pushes: PushSet, points: int, seed: int) -> Rows:
-    """Row numbers of a random selection that is part of any larger one of the same seed.
+    """Row numbers of a random selection; smaller ones of the same seed are part of it.
 
     Raises:
         InputError: the set holds fewer pushes.
@@ -43,24 +46,54 @@ def subset_rows(pushes: PushSet, column: str) -> Rows:
     return rows
 
 
-def die_rows(pushes: PushSet) -> Rows:
-    """Row numbers of the five pushes nearest to the five of a die.
+def five_push_rows(pushes: PushSet) -> Rows:
+    """Row numbers of the five pushes nearest to `five_push_pattern`.
 
     Raises:
         InputError: the set holds fewer than five pushes.
     """
-    pattern = five_of_a_die(HALF_FACE)
+    pattern = five_push_pattern(HALF_FACE)
     if len(pushes) < len(pattern):
-        raise InputError(f'the five of a die needs {len(pattern)} pushes, not {len(pushes)}')
+        raise InputError(f'the pattern needs {len(pattern)} pushes, not {len(pushes)}')
     free = np.ones(len(pushes), dtype=bool)
     rows = []
     for place in pattern:
-        # half a face weighs as much as a radian
-        gap = (pushes.inputs - place) / [HALF_FACE, 1.0]
+        gap = (pushes.inputs - place) / SCALE
         distance = np.where(free, np.sum(gap**2, axis=1), np.inf)
         rows.append(int(np.argmin(distance)))
         free[rows[-1]] = False
     return np.array(rows, dtype=np.intp)
+
+
+def spread_rows(inputs: Array, most: int) -> Rows:
+    """Row numbers of at most `most` inputs that are spread over the domain.
+
+    The older of the two closest pushes is dropped until few enough remain: the domain stays
+    covered, and of repeated pushes the newest one stays.
+
+    Args:
+        inputs: (n, 2) contact offsets [m] and directions [rad], oldest first.
+        most: number of rows to keep.
+    """
+    scaled = inputs / SCALE
+    kept = np.ones(len(scaled), dtype=bool)
+    gaps, newer = np.full(len(scaled), np.inf), np.full(len(scaled), -1, dtype=np.intp)
+
+    def find_nearest_newer(row: int) -> None:
+        later = row + 1 + np.flatnonzero(kept[row + 1 :])
+        squared = np.sum((scaled[later] - scaled[row]) ** 2, axis=1)
+        gaps[row] = squared.min(initial=np.inf)
+        newer[row] = int(later[np.argmin(squared)]) if later.size else -1
+
+    if len(scaled) > most:
+        for row in range(len(scaled)):
+            find_nearest_newer(row)
+    for _ in range(len(scaled) - most):
+        dropped = int(np.argmin(gaps))
+        kept[dropped], gaps[dropped] = False, np.inf
+        for row in np.flatnonzero(kept & (newer == dropped)).tolist():
+            find_nearest_newer(row)
+    return np.flatnonzero(kept)
 
 
 def _check_points(pushes: PushSet, points: int) -> None:

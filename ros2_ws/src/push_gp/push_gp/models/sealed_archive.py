@@ -1,8 +1,7 @@
-"""A zip archive of one readable header and arrays that knows whether it is whole.
+"""A zip archive of a JSON header and arrays, sealed with a checksum.
 
-`numpy.load` and `unzip -p FILE header.json` open it as well. Its zip comment is the sha256 of all
-bytes before it, checked before anything is parsed: a cut, flipped or swapped byte is found here
-and never reaches a parser.
+`numpy.load` and `unzip -p FILE header.json` open it too. Its zip comment is the sha256 of all
+bytes before it and is checked first: a damaged file never reaches a parser.
 """
 
 import hashlib
@@ -22,7 +21,7 @@ SEAL_LENGTH = 64
 
 
 def write_sealed(path: Path, header: Mapping[str, Any], arrays: Mapping[str, Array]) -> None:
-    """Writes header and arrays whole or not at all; the same content gives the same bytes.
+    """Writes header and arrays atomically; the same content gives the same bytes.
 
     Raises:
         InputError: the file cannot be written.
@@ -41,7 +40,7 @@ def read_sealed(path: Path) -> tuple[dict[str, Any], dict[str, Array]]:
     """Header and arrays of a sealed archive.
 
     Raises:
-        InputError: the file is missing, not sealed, or damaged.
+        InputError: the file is missing, damaged, or has no seal.
     """
     try:
         content = path.read_bytes()
@@ -68,7 +67,7 @@ def _parsed(path: Path, content: bytes) -> tuple[dict[str, Any], dict[str, Array
 
 
 def _add(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
-    # a ZipInfo made by hand has a fixed date, so that equal models are equal files
+    # a ZipInfo has a fixed date, so that equal models are equal files
     archive.writestr(zipfile.ZipInfo(name), content)
 
 

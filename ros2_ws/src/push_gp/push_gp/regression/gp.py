@@ -10,8 +10,12 @@ from push_core.common import RunError
 from push_core.geometry import Array
 from scipy.linalg import LinAlgError, cholesky, solve_triangular
 
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.kernel import correlation, cross_covariance, squared_differences
+from push_gp.regression.kernel import (
+    Hyperparameters,
+    correlation,
+    cross_covariance,
+    squared_differences,
+)
 
 ROWS_AT_ONCE = 256
 
@@ -41,7 +45,7 @@ class GaussianProcess:
             inputs: (n, 2).
             outputs: (n,).
             hyperparameters: of this output.
-            weights: (n,) if known, so that the mean needs no factor.
+            weights: (n,) if known; the mean then needs no Cholesky factor.
             scale_tril: (n, n) Cholesky factor of the covariance, if known.
         """
         self.inputs = inputs
@@ -65,18 +69,18 @@ class GaussianProcess:
         return cross_covariance(queries, self.inputs, self.hyperparameters) @ self.weights
 
     def variance(self, queries: Array) -> Array:
-        """(m,) variances of the function, without a measurement's noise, at (m, 2) queries."""
+        """(m,) variances of the latent function at (m, 2) queries; noise not included."""
         result = np.empty(len(queries))
         for first in range(0, len(queries), ROWS_AT_ONCE):
             rows = slice(first, first + ROWS_AT_ONCE)
             covariance = cross_covariance(queries[rows], self.inputs, self.hyperparameters)
             whitened = solve_triangular(self.scale_tril, covariance.T, lower=True)
             result[rows] = self.hyperparameters.signal_std**2 - np.sum(whitened**2, axis=0)
-        # where pushes lie close, the difference is round-off and may come out negative
+        # near the training pushes the difference is round-off, which may be negative
         return np.maximum(result, 0.0, out=result)
 
     def left_out(self) -> tuple[Array, Array]:
-        """(n,) errors and variances of each push as the others predict it.
+        """(n,) errors and variances of leave-one-out predictions.
 
         Source: Rasmussen and Williams 2006, equations 5.10 and 5.11.
         """
@@ -85,7 +89,7 @@ class GaussianProcess:
         return self.weights / inverse, 1.0 / inverse
 
     def extended(self, inputs: Array, outputs: Array) -> 'GaussianProcess':
-        """Conditioned on k further pushes at the same hyperparameters, in O(n^2 k).
+        """The process with k more pushes at the same hyperparameters, in O(n^2 k).
 
         Args:
             inputs: (k, 2).
@@ -113,13 +117,13 @@ class GaussianProcess:
 
 
 def factor(covariance: Array) -> Array:
-    """Lower Cholesky factor (n, n) of a covariance, which is used up.
+    """Lower Cholesky factor (n, n) of a covariance, which is overwritten.
 
     Raises:
         RunError: it is singular in double precision.
     """
     try:
-        # the transpose of a symmetric matrix is in the order that LAPACK works on
+        # the transpose of a symmetric matrix has the memory order of LAPACK
         factor = cholesky(covariance.T, lower=True, overwrite_a=True, check_finite=False)
     except LinAlgError:
         raise RunError('the covariance of the pushes is singular: are rows repeated?') from None

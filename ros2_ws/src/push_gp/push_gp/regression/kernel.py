@@ -1,12 +1,46 @@
 """The squared exponential kernel of the paper, exp(-sum_j (x_j - x'_j)^2 / l_j^2), with ARD.
 
-It has no half in the exponent: a lengthscale here is sqrt(2) times one of most libraries.
+There is no 1/2 in the exponent: a lengthscale here is sqrt(2) times that of most libraries.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
+from push_core.common import InputError
 from push_core.geometry import Array
 
-from push_gp.regression.hyperparameters import Hyperparameters
+
+@dataclass(frozen=True)
+class Hyperparameters:
+    """Of the kernel signal_std^2 exp(-sum_j (x_j - x'_j)^2 / lengthscales_j^2) plus noise.
+
+    Attributes:
+        lengthscales: one for each input, in the inputs' units.
+        signal_std: sigma_f, in the output's unit.
+        noise_std: standard deviation of the measurement noise, in the output's unit.
+
+    Raises:
+        InputError: a value is not finite and positive.
+    """
+
+    lengthscales: tuple[float, float]
+    signal_std: float
+    noise_std: float
+
+    def __post_init__(self) -> None:
+        values = np.array([*self.lengthscales, self.signal_std, self.noise_std])
+        if values.shape != (4,) or not (np.isfinite(values).all() and (values > 0).all()):
+            raise InputError(f'hyperparameters must be positive numbers, not {values.tolist()}')
+
+    def as_logarithms(self) -> Array:
+        """(4,) natural logarithms: lengthscales, signal_std, noise_std."""
+        return np.log([*self.lengthscales, self.signal_std, self.noise_std])
+
+    @classmethod
+    def from_logarithms(cls, logarithms: Array) -> 'Hyperparameters':
+        """The inverse of `as_logarithms`."""
+        first, second, signal, noise = np.exp(logarithms).tolist()
+        return cls((first, second), signal, noise)
 
 
 def squared_differences(inputs: Array) -> Array:
@@ -39,8 +73,8 @@ def cross_covariance(queries: Array, inputs: Array, hyperparameters: Hyperparame
 def query_features(a: Array) -> Array:
     """(..., m, 4) features whose product with `input_features` is the exponent -|a - b|^2.
 
-    One matrix product is many times faster than differences, and exact to a few units of the last
-    place for the few lengthscales that inputs span here.
+    One matrix product is many times faster than differences. It is exact to a few units in the
+    last place, because the inputs span only a few lengthscales.
 
     Args:
         a: (..., m, 2) queries divided by the lengthscales.
@@ -53,7 +87,7 @@ def query_features(a: Array) -> Array:
 
 
 def input_features(b: Array) -> Array:
-    """(..., n, 4) the other side of `query_features`, for inputs divided by the lengthscales."""
+    """(..., n, 4) counterpart of `query_features` for inputs divided by the lengthscales."""
     features = np.empty((*b.shape[:-1], 4))
     features[..., :2] = b
     features[..., 2] = 1.0

@@ -10,17 +10,16 @@ from push_core.common import RunError
 from push_core.geometry import Array
 from scipy.linalg import lapack
 
-from push_gp.regression.hyperparameters import Hyperparameters
-from push_gp.regression.kernel import correlation, squared_differences
+from push_gp.regression.kernel import Hyperparameters, correlation, squared_differences
 
 
 class MarginalLikelihood:
-    """Of (n,) outputs over (n, 2) inputs, as a function of the hyperparameters."""
+    """Of (n,) outputs at (n, 2) inputs, as a function of the hyperparameters."""
 
     def __init__(self, inputs: Array, outputs: Array) -> None:
         self._differences = squared_differences(inputs)
         self._outputs = outputs
-        # fresh memory of this size costs more than the arithmetic that is done on it
+        # allocating matrices of this size takes longer than the arithmetic on them
         self._signal, self._work = np.empty((2, len(outputs), len(outputs)))
 
     def with_gradient(self, hyperparameters: Hyperparameters) -> tuple[float, Array]:
@@ -40,7 +39,7 @@ class MarginalLikelihood:
     def _factor(self, noise_std: float) -> Array:
         np.copyto(self._work, self._signal)
         self._work.flat[:: len(self._outputs) + 1] += noise_std**2
-        # a symmetric matrix is its own transpose, which is in the order that LAPACK works on
+        # the transpose of a symmetric matrix has the memory order of LAPACK
         triangle, failed = lapack.dpotrf(self._work.T, lower=1, clean=1, overwrite_a=1)
         if failed:
             raise RunError('the covariance of the pushes is singular')
@@ -52,7 +51,7 @@ class MarginalLikelihood:
         return float(-0.5 * (self._outputs @ weights + log_determinant + constant))
 
     def _gradient(self, inverse: Array, weights: Array, hyperparameters: Hyperparameters) -> Array:
-        """From w w^T - K^-1; `inverse` holds one triangle of K^-1 and zeros, and is used up."""
+        """From w w^T - K^-1; `inverse` holds a triangle of K^-1 and zeros, and is overwritten."""
         noise = hyperparameters.noise_std**2
         squared_weights, trace = weights @ weights, np.trace(inverse)
         explained = self._outputs @ weights - noise * squared_weights
@@ -63,7 +62,7 @@ class MarginalLikelihood:
     def _by_lengthscales(
         self, inverse: Array, weights: Array, hyperparameters: Hyperparameters
     ) -> Array:
-        # the differences are zero on the diagonal, so a triangle counts by doubling
+        # the differences are zero on the diagonal, so one triangle is doubled
         difference = inverse
         difference *= -2.0
         difference += weights[:, None] * weights

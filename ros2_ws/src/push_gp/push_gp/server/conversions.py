@@ -1,4 +1,4 @@
-"""Messages to arrays and back."""
+"""Conversion between messages and arrays."""
 
 from array import array
 from collections.abc import Iterable
@@ -17,7 +17,7 @@ from push_gp.models import ModelInfo
 
 
 def model_info_message(info: ModelInfo, stamp: Time) -> ModelInfoMessage:
-    """What a model is, with the time [since the epoch] at which it was loaded or extended."""
+    """Description of a model, stamped with the time at which it was loaded or extended."""
     message = ModelInfoMessage(
         model_id=info.model_id,
         model_hash=info.model_hash,
@@ -42,7 +42,7 @@ def queries_of(request: Predict.Request) -> tuple[Array, Array]:
 
 
 def added_pushes_message(pushes: PushSet, model_id: str, stamp: Time) -> AddedPushes:
-    """Pushes that a server took in, and the model that they made at a time [since the epoch]."""
+    """Pushes that were added, and the model that resulted, stamped with the time of the change."""
     message = AddedPushes(
         model_id=model_id,
         p_y=flat(pushes.p_y),
@@ -55,10 +55,10 @@ def added_pushes_message(pushes: PushSet, model_id: str, stamp: Time) -> AddedPu
 
 
 def pushes_of(request: AddPushes.Request | AddedPushes) -> PushSet:
-    """The pushes of a request, or of those that were taken in.
+    """The pushes of a request, or of an announcement of added pushes.
 
     Raises:
-        InputError: the lengths do not fit, or a value is no good.
+        InputError: the lengths do not match, or a value is out of range.
     """
     displacement = _vector(request.displacement)
     if displacement.size != 3 * len(request.p_y) or len(request.beta) != len(request.p_y):
@@ -71,7 +71,7 @@ def pushes_of(request: AddPushes.Request | AddedPushes) -> PushSet:
 
 
 def flat(values: Array) -> 'array[float]':
-    """Row-major numbers in the one form that goes into a message without a loop."""
+    """Row-major numbers as the array type that a message accepts without a Python loop."""
     return array('d', np.ascontiguousarray(values, dtype=np.float64).tobytes())
 
 

@@ -1,4 +1,4 @@
-"""The node that answers for the model: `push_gp/predict`, `push_gp/add_pushes`, `model_info`."""
+"""The model server node: `push_gp/predict`, `push_gp/add_pushes`, `model_info`."""
 
 import sys
 from collections.abc import Sequence
@@ -53,13 +53,13 @@ class GpServer(Node):  # type: ignore[misc]
     def _predict(self, request: Predict.Request, response: Predict.Response) -> Predict.Response:
         try:
             p_y, beta = queries_of(request)
-            found = self._server.predict(p_y, beta, want_variance=request.want_variance)
+            prediction = self._server.predict(p_y, beta, want_variance=request.want_variance)
         except PushError as error:
             self._refuse(response, error)
             return response
         self._accept(response)
-        response.mean, response.jacobian = flat(found.mean), flat(found.jacobian)
-        response.variance = flat(found.variance)
+        response.mean, response.jacobian = flat(prediction.mean), flat(prediction.jacobian)
+        response.variance = flat(prediction.variance)
         return response
 
     def _add_pushes(
@@ -72,12 +72,12 @@ class GpServer(Node):  # type: ignore[misc]
             self._refuse(response, error)
         else:
             self._accept(response)
-            self._tell_of(pushes)
+            self._announce_pushes(pushes)
             self._announce()
         response.points = self._server.info.points
         return response
 
-    def _tell_of(self, pushes: PushSet) -> None:
+    def _announce_pushes(self, pushes: PushSet) -> None:
         stamp = self.get_clock().now().to_msg()
         self._added.publish(added_pushes_message(pushes, self._server.info.model_id, stamp))
 
@@ -97,7 +97,7 @@ class GpServer(Node):  # type: ignore[misc]
         self._announcements.publish(model_info_message(info, self.get_clock().now().to_msg()))
         self.get_logger().info(
             f'serving {info.kind} model {info.model_id}: {info.points} pushes, '
-            f'{info.mean_function} mean, {info.distance * 1e3:g} mm per answer'
+            f'{info.mean_function} mean, {info.distance * 1e3:g} mm per push'
         )
         self._report()
 

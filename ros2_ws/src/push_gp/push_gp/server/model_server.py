@@ -1,4 +1,4 @@
-"""Answers for one model: what the node does, without ROS."""
+"""The model server without ROS."""
 
 import math
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ from push_gp.models import GpModel, ModelInfo, PushModel
 
 @dataclass(frozen=True)
 class Prediction:
-    """Answers for n pushes.
+    """Predictions for n pushes.
 
     Attributes:
         mean: (n, 3) displacements [m, m, rad].
         jacobian: (n, 3, 2) derivatives with respect to [p_y, beta].
-        variance: (n, 3) of the mean; (0, 3) where nobody asked.
+        variance: (n, 3) of the latent function; (0, 3) if not requested.
     """
 
     mean: Array
@@ -27,42 +27,42 @@ class Prediction:
 
 
 class ModelServer:
-    """Holds the model, checks what is asked of it, and takes new pushes in."""
+    """Holds the model, checks queries, and adds pushes."""
 
     def __init__(self, model: PushModel, max_points: int) -> None:
         """Serves a model.
 
         Args:
-            model: to answer with.
-            max_points: training pushes that it may grow to; see `thinning` for what it keeps.
+            model: to serve.
+            max_points: training pushes that the model may grow to; see `spread_rows`.
         """
         self._model = model
         self._max_points = max_points
         if isinstance(model, GpModel):
-            # factors now what the first question would otherwise wait for
+            # computes the Cholesky factors now, not at the first query
             self.predict(np.zeros(1), np.full(1, math.pi / 2.0), want_variance=True)
 
     @property
     def model(self) -> PushModel:
-        """The model by now."""
+        """The current model."""
         return self._model
 
     @property
     def info(self) -> ModelInfo:
-        """What the model is by now."""
+        """Description of the current model."""
         return self._model.info
 
     def predict(self, p_y: Array, beta: Array, *, want_variance: bool) -> Prediction:
-        """Answers for a batch of pushes.
+        """Predicts a batch of pushes.
 
         Args:
             p_y: (n,) contact offsets [m].
             beta: (n,) push directions [rad].
-            want_variance: it costs the square of the training pushes.
+            want_variance: whether to compute variances, which takes O(n^2) for n training pushes.
 
         Raises:
-            InputError: the lengths differ, or a push is none.
-            RunError: the model states no variance.
+            InputError: the lengths differ, or a push is out of range.
+            RunError: the model has no variance.
         """
         if p_y.size != beta.size:
             raise InputError(f'{p_y.size} p_y but {beta.size} beta')
@@ -74,14 +74,14 @@ class ModelServer:
         return Prediction(mean, jacobian, variance)
 
     def add_pushes(self, pushes: PushSet) -> None:
-        """Extends the model at its hyperparameters; it stays as it was if anything is wrong.
+        """Adds pushes at the same hyperparameters; after an error the model is unchanged.
 
         Raises:
-            InputError: it cannot learn, or the pushes do not fit it.
+            InputError: the model is analytical, or the pushes are of another distance.
             RunError: the pushes make its covariance singular.
         """
         if not isinstance(self._model, GpModel):
-            raise InputError('the analytical model does not learn; serve a model file instead')
+            raise InputError('the analytical model cannot be extended; serve a model file instead')
         if not len(pushes):
             raise InputError('there are no pushes to add')
         self._model = self._model.extended(pushes).thinned(self._max_points)

@@ -1,4 +1,4 @@
-"""From pushes to a model."""
+"""Training: from pushes to a model."""
 
 from collections.abc import Callable
 
@@ -14,15 +14,15 @@ from push_gp.training.prior import OVER_CONE, OVER_ZERO, priors
 def train(
     pushes: PushSet, mean: str = 'zero', progress: Callable[[str], object] = lambda _output: None
 ) -> GpModel:
-    """The most likely model of a push set; the same set gives the same model bit for bit.
+    """Trains a model; the same pushes give the same model bit for bit.
 
-    One thread does it. Several would sum in another order, and gain little with matrices of a few
-    hundred rows; where other work keeps a core busy they would wait for each other.
+    It uses one thread. Several would sum in another order, gain little with matrices of a few
+    hundred rows, and wait for each other when other work occupies a core.
 
     Args:
         pushes: the training set.
-        mean: 'zero' as in the paper, or 'analytical': the motion cone, itself fitted.
-        progress: told the name of each output that is done.
+        mean: 'zero' as in the paper, or 'analytical' for the fitted motion cone.
+        progress: called with the name of each output when it is fitted.
 
     Raises:
         RunError: no hyperparameters explain the pushes.
@@ -33,13 +33,15 @@ def train(
 
 def _trained(pushes: PushSet, mean: str, progress: Callable[[str], object]) -> GpModel:
     mean_function = _mean_function(pushes, mean)
-    beliefs = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
-    found = []
-    left = residuals(pushes, mean_function)
-    for name, outputs, prior in zip(OUTPUTS, left, priors(beliefs, pushes.distance), strict=True):
-        found.append(fit(pushes.inputs, outputs, prior))
+    values = OVER_CONE if isinstance(mean_function, ConeMean) else OVER_ZERO
+    fitted = []
+    columns = residuals(pushes, mean_function)
+    for name, outputs, prior in zip(
+        OUTPUTS, columns, priors(values, pushes.distance), strict=True
+    ):
+        fitted.append(fit(pushes.inputs, outputs, prior))
         progress(name)
-    return GpModel.conditioned(pushes, mean_function, found)
+    return GpModel.conditioned(pushes, mean_function, fitted)
 
 
 def _mean_function(pushes: PushSet, mean: str) -> MeanFunction:

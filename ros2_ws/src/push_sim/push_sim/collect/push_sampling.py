@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import numpy as np
 from push_core.common import InputError
-from push_core.data import five_of_a_die
+from push_core.data import five_push_pattern
 
 from push_sim.collect.push_design import PushDesign
 
@@ -53,7 +53,7 @@ def grid(design: PushDesign, side: float, pushes: int) -> Sampler:
 
 def die(_design: PushDesign, side: float, _pushes: int) -> Sampler:
     """The five pushes of `push_core.data.five_of_a_die`, repeated."""
-    inputs = five_of_a_die(side / 2.0)
+    inputs = five_push_pattern(side / 2.0)
 
     def sample(number: int, _random: np.random.Generator) -> tuple[float, float]:
         p_y, beta = inputs[number % len(inputs)].tolist()

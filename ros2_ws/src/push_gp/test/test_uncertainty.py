@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 from push_core.data.push_set import PushSet
-from push_gp.evaluation.calibration import calibration
+from push_gp.evaluation.uncertainty import score_uncertainty
 from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ZeroMean
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import Hyperparameters
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def test_the_likelihood_is_that_of_a_normal_distribution(
     flat_model: GpModel, pushes: PushSet
 ) -> None:
     moved = np.tile([1e-3, 2e-3, np.radians(6.0)], (60, 1))
-    found = calibration(flat_model, PushSet(pushes.p_y, pushes.beta, moved, 0.004))
+    found = score_uncertainty(flat_model, PushSet(pushes.p_y, pushes.beta, moved, 0.004))
     constant = 0.5 * np.log(2.0 * np.pi)
     expected = constant + np.log([1.0, 2.0, 3.0]) + [0.5, 0.5, 2.0]
     assert np.allclose(found.nlpd, expected, rtol=1e-9)
@@ -33,7 +33,7 @@ def test_the_coverage_counts_what_lies_within_the_models_interval(
     moved = np.zeros((60, 3))
     reach = flat_model.interval_95 * [1e-3, 2e-3, np.radians(3.0)]
     moved[:30] = reach * [1.001, 0.999, 0.0]
-    found = calibration(flat_model, PushSet(pushes.p_y, pushes.beta, moved, 0.004))
+    found = score_uncertainty(flat_model, PushSet(pushes.p_y, pushes.beta, moved, 0.004))
     assert found.coverage_95.tolist() == [0.5, 1.0, 1.0]
 
 

@@ -1,8 +1,8 @@
-"""A Gaussian process whose factor is as small as the kernel's rank, however many its pushes.
+"""A Gaussian process in the low-rank form of its kernel: its matrices do not grow with n.
 
-With the kernel as s(a)^T s(b), the process is a Bayesian linear regression on the features s; its
-Cholesky factor takes new pushes in by summing them. It says what `gp.GaussianProcess` says, to
-nine digits. Source: Rasmussen and Williams 2006, section 2.1.
+With the kernel as s(a)^T s(b), the process is a Bayesian linear regression on the features s. New
+pushes are added to its precision matrix. Its answers equal those of `gp.GaussianProcess` to nine
+digits. Source: Rasmussen and Williams 2006, section 2.1.
 """
 
 from functools import cached_property
@@ -12,16 +12,16 @@ import numpy as np
 from push_core.geometry import Array
 from scipy.linalg import cho_solve, solve_triangular
 
-from push_gp.low_rank.domain import INTERVALS, covers
+from push_gp.low_rank.chebyshev import INTERVALS, covers
 from push_gp.low_rank.kernel_modes import KernelModes
 from push_gp.regression import GaussianProcess, Hyperparameters, factor
 
-WORTH_FOLDING = 0.5
-"""Features for each push from which folding gains nothing."""
+LARGEST_RANK = 0.5
+"""Rank of the kernel per push above which the low-rank form saves nothing."""
 
 
-class FoldedProcess:
-    """One output conditioned on many pushes; see `GaussianProcess` for what it is asked."""
+class LowRankProcess:
+    """One output conditioned on many pushes; the interface is that of `GaussianProcess`."""
 
     def __init__(
         self,
@@ -42,7 +42,8 @@ class FoldedProcess:
             hyperparameters: of this output.
             modes: of its kernel.
             weights: (n,) if known.
-            precision: (r, r) noise^2 + the sum of the outer products of the features, if known.
+            precision: (r, r) noise^2 I plus the sum of the outer products of the features, if
+                known.
             features: (n, r) of the inputs, if known.
         """
         self.inputs = inputs
@@ -52,41 +53,41 @@ class FoldedProcess:
         if precision is not None:
             self._precision = precision
         if features is not None:
-            self._known = features
+            self._training_features = features
         self.weights = self._solved_weights() if weights is None else weights
 
     def variance(self, queries: Array) -> Array:
-        """(m,) variances of the function, without a measurement's noise, at (m, 2) queries."""
+        """(m,) variances of the latent function at (m, 2) queries; noise not included."""
         if not covers(queries):
-            return self._unfolded.variance(queries)
+            return self._full_rank.variance(queries)
         whitened = solve_triangular(self._scale_tril, self._features(queries).T, lower=True)
         return np.asarray(self.hyperparameters.noise_std**2 * np.sum(whitened**2, axis=0))
 
     def left_out(self) -> tuple[Array, Array]:
-        """(n,) errors and variances of each push as the others predict it."""
-        whitened = solve_triangular(self._scale_tril, self._known.T, lower=True)
+        """(n,) errors and variances of leave-one-out predictions."""
+        whitened = solve_triangular(self._scale_tril, self._training_features.T, lower=True)
         inverse = (1.0 - np.sum(whitened**2, axis=0)) / self.hyperparameters.noise_std**2
         return self.weights / inverse, 1.0 / inverse
 
-    def extended(self, inputs: Array, outputs: Array) -> 'FoldedProcess':
-        """Conditioned on (k, 2) further inputs and their (k,) outputs."""
+    def extended(self, inputs: Array, outputs: Array) -> 'LowRankProcess':
+        """The process with (k, 2) more inputs and their (k,) outputs."""
         features = self._features(inputs)
-        return FoldedProcess(
+        return LowRankProcess(
             np.vstack((self.inputs, inputs)),
             np.concatenate((self.outputs, outputs)),
             self.hyperparameters,
             self._modes,
             precision=self._precision + features.T @ features,
-            features=np.vstack((self._known, features)),
+            features=np.vstack((self._training_features, features)),
         )
 
     @cached_property
-    def _known(self) -> Array:
+    def _training_features(self) -> Array:
         return self._features(self.inputs)
 
     @cached_property
     def _precision(self) -> Array:
-        precision = self._known.T @ self._known
+        precision = self._training_features.T @ self._training_features
         precision.flat[:: len(precision) + 1] += self.hyperparameters.noise_std**2
         return np.asarray(precision)
 
@@ -95,8 +96,8 @@ class FoldedProcess:
         return factor(self._precision.copy())
 
     @cached_property
-    def _unfolded(self) -> GaussianProcess:
-        """For queries off the domain."""
+    def _full_rank(self) -> GaussianProcess:
+        """For queries outside the domain of the modes."""
         return GaussianProcess(
             self.inputs, self.outputs, self.hyperparameters, weights=self.weights
         )
@@ -105,20 +106,21 @@ class FoldedProcess:
         return self._modes.features(points) * self.hyperparameters.signal_std
 
     def _solved_weights(self) -> Array:
-        coefficients = cho_solve((self._scale_tril, True), self._known.T @ self.outputs)
-        left = self.outputs - self._known @ coefficients
-        return np.asarray(left / self.hyperparameters.noise_std**2)
+        features = self._training_features
+        coefficients = cho_solve((self._scale_tril, True), features.T @ self.outputs)
+        errors = self.outputs - features @ coefficients
+        return np.asarray(errors / self.hyperparameters.noise_std**2)
 
 
-Process: TypeAlias = GaussianProcess | FoldedProcess
-"""Both are asked the same."""
+Process: TypeAlias = GaussianProcess | LowRankProcess
+"""Both have the same interface."""
 
 
 def conditioned(
     inputs: Array, outputs: Array, hyperparameters: Hyperparameters, weights: Array | None = None
 ) -> Process:
-    """The process of (n, 2) inputs and (n,) outputs, in the form that is cheaper."""
+    """The process of (n, 2) inputs and (n,) outputs, in the cheaper of its two forms."""
     modes = KernelModes.of(INTERVALS, hyperparameters.lengthscales)
-    if len(modes) > WORTH_FOLDING * len(outputs):
+    if len(modes) > LARGEST_RANK * len(outputs):
         return GaussianProcess(inputs, outputs, hyperparameters, weights=weights)
-    return FoldedProcess(inputs, outputs, hyperparameters, modes, weights=weights)
+    return LowRankProcess(inputs, outputs, hyperparameters, modes, weights=weights)

@@ -1,4 +1,4 @@
-"""How the error on unseen pushes falls with the number of training pushes."""
+"""Learning curve: error on held-out pushes against the number of training pushes."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -8,29 +8,29 @@ from push_core.common import InputError
 from push_core.data import PushSet, accuracy
 from push_core.geometry import Array
 
-from push_gp.evaluation.calibration import calibration
+from push_gp.evaluation.uncertainty import score_uncertainty
 from push_gp.models import PushModel
 from push_gp.training.fit_cone import fitted_cone
 from push_gp.training.train import train
 
 SIZES = (5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000)
 HELD_OUT = 0.2
-"""Share of the pushes that no model of a seed is trained on."""
+"""Share of the pushes that are held out in each seed."""
 
 LIMIT_SURFACE = 'limit_surface'
 METHODS = ('zero', 'analytical', LIMIT_SURFACE)
-"""A GP over nothing, one over the fitted motion cone, and that cone alone."""
+"""A GP with zero mean, a GP over the fitted motion cone, and that cone alone."""
 
 
 @dataclass(frozen=True)
-class Place:
-    """One place on the curve.
+class CurvePoint:
+    """One point of the curve.
 
     Attributes:
         points: training pushes.
         method: one of `METHODS`.
-        nmse: (seeds,) mean NMSE in the push frame on the pushes held out.
-        coverage: (seeds,) mean share within the 95 % interval; NaN without one.
+        nmse: (seeds,) mean NMSE in the push frame on the held-out pushes.
+        coverage: (seeds,) mean share within the 95 % interval; NaN for a model without one.
     """
 
     points: int
@@ -39,7 +39,7 @@ class Place:
     coverage: Array
 
     def as_json(self) -> dict[str, object]:
-        """The place as `curve --json` prints it."""
+        """The point as `curve --json` prints it."""
         low, median, high = np.quantile(self.nmse, [0.25, 0.5, 0.75]).tolist()
         known = bool(np.isfinite(self.coverage).all())
         return {
@@ -55,14 +55,14 @@ class Place:
         }
 
 
-def sizes_within(count: int, wanted: Sequence[int] | None = None) -> list[int]:
-    """The wanted numbers of training pushes, or those of `SIZES` that `count` pushes allow.
+def curve_sizes(count: int, requested: Sequence[int] | None = None) -> list[int]:
+    """The requested numbers of training pushes, or those of `SIZES` that `count` pushes allow.
 
     Raises:
-        InputError: the pushes do not allow one that is wanted, or none.
+        InputError: there are too few pushes for a requested size, or for any.
     """
     most = count - _held_out(count)
-    sizes = [size for size in SIZES if size <= most] if wanted is None else list(wanted)
+    sizes = [size for size in SIZES if size <= most] if requested is None else list(requested)
     wrong = [size for size in sizes or SIZES[:1] if not 1 <= size <= most]
     if wrong:
         raise InputError(f'cannot train on {wrong[0]}: {count} pushes allow 1 to {most} of them')
@@ -71,17 +71,17 @@ def sizes_within(count: int, wanted: Sequence[int] | None = None) -> list[int]:
 
 def learning_curve(
     pushes: PushSet, sizes: Sequence[int], seeds: int, progress: Callable[[], object]
-) -> Iterator[Place]:
-    """The places, by number of pushes and method.
+) -> Iterator[CurvePoint]:
+    """Yields the points, by number of pushes and method.
 
-    In each seed the larger training sets hold the smaller ones, and all are scored on the same
-    pushes, which none of them holds.
+    In each seed the smaller training sets are part of the larger ones, and all are scored on the
+    same held-out pushes.
 
     Args:
         pushes: to draw from.
         sizes: numbers of training pushes.
         seeds: draws of each, from seed 0.
-        progress: told of each model done.
+        progress: called after each model.
     """
     draws = [np.random.default_rng(seed).permutation(len(pushes)) for seed in range(seeds)]
     for size in sizes:
@@ -92,7 +92,7 @@ def learning_curve(
                 scores.append(_score(_model(pushes.take(draw[:size]), method), rest))
                 progress()
             nmse, coverage = np.array(scores).T
-            yield Place(size, method, nmse, coverage)
+            yield CurvePoint(size, method, nmse, coverage)
 
 
 def _held_out(count: int) -> int:
@@ -105,6 +105,6 @@ def _model(pushes: PushSet, method: str) -> PushModel:
 
 def _score(model: PushModel, rest: PushSet) -> tuple[float, float]:
     predicted, _ = model.evaluate(rest.p_y, rest.beta)
-    known = calibration(model, rest)
-    covered = float(known.coverage_95.mean()) if known else float('nan')
+    score = score_uncertainty(model, rest)
+    covered = float(score.coverage_95.mean()) if score else float('nan')
     return float(accuracy(predicted, rest).nmse_push_frame.mean()), covered

@@ -1,4 +1,4 @@
-"""How honest a model's variances are: likelihood of measured pushes, coverage of its intervals."""
+"""Quality of predicted variances: likelihood of measured pushes, coverage of intervals."""
 
 import math
 from dataclasses import dataclass
@@ -11,8 +11,8 @@ from push_gp.models import GpModel, PushModel
 
 
 @dataclass(frozen=True)
-class Calibration:
-    """Of a model's distribution of a measurement.
+class UncertaintyScore:
+    """Score of the predicted distribution of a measurement.
 
     Attributes:
         nlpd: (3,) mean negative log predictive density [nat], outputs in [mm, mm, deg].
@@ -23,15 +23,12 @@ class Calibration:
     coverage_95: Array
 
 
-def calibration(model: PushModel, pushes: PushSet) -> Calibration | None:
-    """Compares the model's distribution of a measurement with measured pushes.
-
-    None where it has no distribution.
-    """
+def score_uncertainty(model: PushModel, pushes: PushSet) -> UncertaintyScore | None:
+    """Compares the predicted distribution with measured pushes; None for a model without one."""
     if not isinstance(model, GpModel):
         return None
     predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
     variance = model.variance(pushes.p_y, pushes.beta) + model.noise_variance
     squared = (predicted - pushes.displacement) ** 2 / variance
     density = 0.5 * (squared + np.log(2.0 * math.pi * variance / READABLE**2))
-    return Calibration(density.mean(axis=0), np.mean(squared <= model.interval_95**2, axis=0))
+    return UncertaintyScore(density.mean(axis=0), np.mean(squared <= model.interval_95**2, axis=0))

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from push_gp.low_rank.chebyshev import Interval
-from push_gp.low_rank.folded_likelihood import FoldedLikelihood
-from push_gp.low_rank.folded_process import FoldedProcess, conditioned
 from push_gp.low_rank.kernel_modes import KernelModes
+from push_gp.low_rank.low_rank_process import LowRankProcess, conditioned
 from push_gp.regression.gp import GaussianProcess
-from push_gp.regression.hyperparameters import Hyperparameters
+from push_gp.regression.kernel import Hyperparameters
 from push_gp.regression.likelihood import MarginalLikelihood
+from push_gp.training.low_rank_likelihood import LowRankLikelihood
 
 SMOOTH = Hyperparameters((0.03, 1.2), 1.7e-3, 1.4e-4)
 ROUGH = Hyperparameters((0.016, 1.0), 1.7e-3, 1.4e-4)
@@ -38,7 +38,7 @@ def test_the_likelihood_and_its_gradient_are_those_of_all_covariances(
     data: tuple[np.ndarray, np.ndarray], hyperparameters: Hyperparameters
 ) -> None:
     value, gradient = MarginalLikelihood(*data).with_gradient(hyperparameters)
-    folded, folded_gradient = FoldedLikelihood(*data).with_gradient(hyperparameters)
+    folded, folded_gradient = LowRankLikelihood(*data).with_gradient(hyperparameters)
     assert folded == pytest.approx(value, rel=1e-8)
     assert np.allclose(folded_gradient, gradient, rtol=1e-6, atol=1e-7 * abs(value))
 
@@ -46,7 +46,7 @@ def test_the_likelihood_and_its_gradient_are_those_of_all_covariances(
 def test_the_likelihood_depends_on_its_point_and_not_on_the_way_there(
     data: tuple[np.ndarray, np.ndarray],
 ) -> None:
-    likelihood = FoldedLikelihood(*data)
+    likelihood = LowRankLikelihood(*data)
     direct = likelihood.with_gradient(SMOOTH)[0]
     likelihood.with_gradient(ROUGH)
     assert likelihood.with_gradient(SMOOTH)[0] == pytest.approx(direct, rel=1e-8)
@@ -57,7 +57,7 @@ def test_the_process_says_what_the_unfolded_one_says(
     data: tuple[np.ndarray, np.ndarray], hyperparameters: Hyperparameters
 ) -> None:
     folded, plain = conditioned(*data, hyperparameters), GaussianProcess(*data, hyperparameters)
-    assert isinstance(folded, FoldedProcess)
+    assert isinstance(folded, LowRankProcess)
     assert np.allclose(folded.weights, plain.weights, rtol=0, atol=1e-9 * abs(plain.weights).max())
     assert np.allclose(folded.variance(QUERIES), plain.variance(QUERIES), rtol=1e-8, atol=0)
     off_the_face = np.array([[0.06, 1.0]])
@@ -88,7 +88,7 @@ def test_added_pushes_give_the_process_of_all_pushes(
         inputs[880:], outputs[880:]
     )
     plain = GaussianProcess(*data, SMOOTH)
-    assert isinstance(extended, FoldedProcess)
+    assert isinstance(extended, LowRankProcess)
     largest = abs(plain.weights).max()
     assert np.allclose(extended.weights, plain.weights, rtol=0, atol=1e-8 * largest)
     assert np.allclose(extended.variance(QUERIES), plain.variance(QUERIES), rtol=1e-8, atol=0)

@@ -1,9 +1,10 @@
-"""Log marginal likelihood with its gradient, at a cost that does not grow with the pushes.
+"""Log marginal likelihood with its gradient in low-rank form: the cost does not grow with n.
 
-In a basis of polynomials the kernel is Phi C Phi^T, so that the pushes enter through Phi^T Phi and
-Phi^T y alone, which are summed once. With C = S S^T and B = noise^2 + S^T Phi^T Phi S, everything
-follows from B as small as the kernel's rank (Rasmussen and Williams 2006, section 8.1 and
-appendix A.3). What it says is what `likelihood` says, but for less than 1e-3 nat.
+In a basis of polynomials the kernel is Phi C Phi^T: the pushes enter only through Phi^T Phi and
+Phi^T y, which are computed once. With C = S S^T everything follows from the matrix
+B = noise^2 + S^T Phi^T Phi S, whose size is the rank of the kernel (Rasmussen and Williams 2006,
+section 8.1 and appendix A.3). The result differs from that of `MarginalLikelihood` by less than
+1e-3 nat.
 """
 
 import math
@@ -15,29 +16,28 @@ from push_core.common import RunError
 from push_core.geometry import Array
 from scipy.linalg import lapack
 
-from push_gp.low_rank.chebyshev import Interval
-from push_gp.low_rank.kernel_modes import KernelModes
+from push_gp.low_rank import Interval, KernelModes
 from push_gp.regression import Hyperparameters, MarginalLikelihood
 
 CUT_OFF = 1e-12
-"""Terms of the kernel of unit signal that are smaller are left out: they move the likelihood of
-thousands of pushes by less than 1e-3 nat, and would make the matrices a third larger."""
+"""Smallest term of the kernel of unit signal that is kept. Smaller ones change the likelihood of
+thousands of pushes by less than 1e-3 nat and would make the matrices a third larger."""
 
-ROOM = 0.85
-"""A basis made for one lengthscale serves down to this fraction of it before it is made anew."""
+MARGIN = 0.85
+"""A basis is made for lengthscales shorter by this factor, so that it can be reused while the
+optimiser shortens them."""
 
-
-WORTH_FOLDING = 0.8
-"""Terms for each push from which it is quicker not to fold."""
+LARGEST_RANK = 0.8
+"""Rank of the kernel per push above which the full covariance is faster."""
 
 
 @dataclass(frozen=True)
 class Sums:
-    """All that the likelihood needs to know of the pushes, for lengthscales down to some.
+    """Sums over the pushes from which the likelihood is computed.
 
     Attributes:
-        shortest: (2,) these lengthscales [m, rad].
-        modes: of the kernel at them.
+        shortest: (2,) lengthscales [m, rad] down to which the sums are valid.
+        modes: of the kernel at the shortest lengthscales.
         gram: (M, M) Phi^T Phi, Phi the products of the modes at the pushes.
         moments: (M,) Phi^T y.
     """
@@ -48,8 +48,8 @@ class Sums:
     moments: Array
 
 
-class FoldedLikelihood:
-    """Of (n,) outputs over (n, 2) inputs, as a function of the hyperparameters."""
+class LowRankLikelihood:
+    """Of (n,) outputs at (n, 2) inputs, as a function of the hyperparameters."""
 
     def __init__(self, inputs: Array, outputs: Array) -> None:
         self._inputs, self._outputs = inputs, outputs
@@ -61,7 +61,7 @@ class FoldedLikelihood:
         """See `MarginalLikelihood.with_gradient`."""
         sums = self._sums_for(np.array(hyperparameters.lengthscales))
         if sums is None:
-            return self._unfolded.with_gradient(hyperparameters)
+            return self._full_rank.with_gradient(hyperparameters)
         factors = [
             _Factor.of(*(modes.T @ part @ modes for part in interval.kernel(length, len(modes))))
             for interval, length, modes in zip(
@@ -71,18 +71,18 @@ class FoldedLikelihood:
         return self._from_factors(sums, factors, hyperparameters)
 
     @cached_property
-    def _unfolded(self) -> MarginalLikelihood:
-        """For lengthscales that are too short to fold."""
+    def _full_rank(self) -> MarginalLikelihood:
+        """For lengthscales that are too short for the low-rank form."""
         return MarginalLikelihood(self._inputs, self._outputs)
 
     def _sums_for(self, lengthscales: Array) -> Sums | None:
-        """Sums that serve, None where they would have about as many terms as there are pushes."""
+        """Valid sums; None if the rank is about the number of pushes."""
         if self._sums is None or (lengthscales < self._sums.shortest).any():
-            modes = KernelModes.of(self._intervals, (ROOM * lengthscales).tolist(), CUT_OFF)
-            if len(modes) > WORTH_FOLDING * len(self._outputs):
+            modes = KernelModes.of(self._intervals, (MARGIN * lengthscales).tolist(), CUT_OFF)
+            if len(modes) > LARGEST_RANK * len(self._outputs):
                 return None
             phi = modes.products_at(self._inputs)
-            self._sums = Sums(ROOM * lengthscales, modes, phi.T @ phi, phi.T @ self._outputs)
+            self._sums = Sums(MARGIN * lengthscales, modes, phi.T @ phi, phi.T @ self._outputs)
         return self._sums
 
     def _from_factors(
@@ -119,10 +119,10 @@ class FoldedLikelihood:
 
 @dataclass(frozen=True)
 class _Factor:
-    """A square root of the kernel of one input, and how the kernel changes, in its terms.
+    """Square root of the kernel of one input, and the derivative of the kernel in its basis.
 
     Attributes:
-        values: (r,) eigenvalues that matter.
+        values: (r,) eigenvalues above `CUT_OFF`.
         scaled: (m, r) eigenvectors times the roots of the eigenvalues.
         slopes: (r, r) X with d kernel / d log l = scaled X scaled^T.
     """
