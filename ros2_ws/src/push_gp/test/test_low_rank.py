@@ -1,4 +1,4 @@
-"""Folding pushes into the kernel's modes changes the cost of an answer, not the answer."""
+"""The low-rank form changes the cost of a prediction, not the prediction."""
 
 import numpy as np
 import pytest
@@ -38,9 +38,9 @@ def test_the_likelihood_and_its_gradient_are_those_of_all_covariances(
     data: tuple[np.ndarray, np.ndarray], hyperparameters: Hyperparameters
 ) -> None:
     value, gradient = MarginalLikelihood(*data).with_gradient(hyperparameters)
-    folded, folded_gradient = LowRankLikelihood(*data).with_gradient(hyperparameters)
-    assert folded == pytest.approx(value, rel=1e-8)
-    assert np.allclose(folded_gradient, gradient, rtol=1e-6, atol=1e-7 * abs(value))
+    low_rank, low_rank_gradient = LowRankLikelihood(*data).with_gradient(hyperparameters)
+    assert low_rank == pytest.approx(value, rel=1e-8)
+    assert np.allclose(low_rank_gradient, gradient, rtol=1e-6, atol=1e-7 * abs(value))
 
 
 def test_the_likelihood_depends_on_its_point_and_not_on_the_way_there(
@@ -53,20 +53,22 @@ def test_the_likelihood_depends_on_its_point_and_not_on_the_way_there(
 
 
 @pytest.mark.parametrize('hyperparameters', [SMOOTH, ROUGH])
-def test_the_process_says_what_the_unfolded_one_says(
+def test_the_low_rank_process_equals_the_full_rank_one(
     data: tuple[np.ndarray, np.ndarray], hyperparameters: Hyperparameters
 ) -> None:
-    folded, plain = conditioned(*data, hyperparameters), GaussianProcess(*data, hyperparameters)
-    assert isinstance(folded, LowRankProcess)
-    assert np.allclose(folded.weights, plain.weights, rtol=0, atol=1e-9 * abs(plain.weights).max())
-    assert np.allclose(folded.variance(QUERIES), plain.variance(QUERIES), rtol=1e-8, atol=0)
+    low_rank, plain = conditioned(*data, hyperparameters), GaussianProcess(*data, hyperparameters)
+    assert isinstance(low_rank, LowRankProcess)
+    assert np.allclose(
+        low_rank.weights, plain.weights, rtol=0, atol=1e-9 * abs(plain.weights).max()
+    )
+    assert np.allclose(low_rank.variance(QUERIES), plain.variance(QUERIES), rtol=1e-8, atol=0)
     off_the_face = np.array([[0.06, 1.0]])
-    assert np.allclose(folded.variance(off_the_face), plain.variance(off_the_face), rtol=1e-9)
-    for ours, theirs in zip(folded.left_out(), plain.left_out(), strict=True):
+    assert np.allclose(low_rank.variance(off_the_face), plain.variance(off_the_face), rtol=1e-9)
+    for ours, theirs in zip(low_rank.left_out(), plain.left_out(), strict=True):
         assert np.allclose(ours, theirs, rtol=1e-7, atol=1e-9 * np.abs(theirs).max())
 
 
-def test_short_lengthscales_are_not_worth_folding(data: tuple[np.ndarray, np.ndarray]) -> None:
+def test_short_lengthscales_use_the_full_covariance(data: tuple[np.ndarray, np.ndarray]) -> None:
     assert isinstance(conditioned(*data, JAGGED), GaussianProcess)
 
 
