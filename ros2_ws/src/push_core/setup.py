@@ -5,7 +5,7 @@ setup(
     version='0.1.0',
     description=(
         'The physics every part of the cell shares: frames, slider, limit surface, motion '
-        'cone, tracks, actuator, safety limits. numpy only.'
+        'cone, tracks, actuator, safety limits.'
     ),
     license='Apache-2.0',
     packages=find_packages(exclude=['test']),
@@ -14,7 +14,7 @@ setup(
         ('share/ament_index/resource_index/packages', ['resource/push_core']),
         ('share/push_core', ['package.xml']),
     ],
-    install_requires=['setuptools', 'numpy'],
+    install_requires=['setuptools', 'numpy', 'scipy'],
     extras_require={'test': ['pytest']},
     zip_safe=False,
 )

@@ -1,4 +1,4 @@
-"""The physics every part of the cell shares; numpy only."""
+"""The physics that all parts of the cell share, tracks, data sets; needs numpy and scipy only."""
 
 from typing import TYPE_CHECKING
 

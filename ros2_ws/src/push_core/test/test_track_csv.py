@@ -3,7 +3,8 @@ import math
 import numpy as np
 import pytest
 from push_core.common.errors import InputError
-from push_core.tracks.track import MAX_KNOTS, by_name, from_csv
+from push_core.tracks.built_in import by_name
+from push_core.tracks.track_csv import MAX_KNOTS, read_track
 
 POINTS = np.array([[0.0, 0.0], [0.1, 0.02], [0.2, 0.0], [0.3, -0.02], [0.4, 0.0]])
 GOOD = '0.0,0.0\n0.1,0.0\n0.2,0.1\n0.3,0.1\n'
@@ -11,7 +12,7 @@ GOOD = '0.0,0.0\n0.1,0.0\n0.2,0.1\n0.3,0.1\n'
 
 def refusal(path) -> str:
     with pytest.raises(InputError) as caught:
-        from_csv(path)
+        read_track(path)
     message = str(caught.value)
     assert str(path) in message
     assert '\n' not in message
@@ -28,7 +29,7 @@ def test_a_circle_of_points_is_a_circle(circle_csv) -> None:
 
 
 def test_an_open_track_begins_and_ends_at_its_points(write_track) -> None:
-    track = from_csv(write_track(POINTS))
+    track = read_track(write_track(POINTS))
     x, y, _, _ = track.at(np.array([0.0, track.length]))
     assert not track.closed
     assert (x.tolist(), y.tolist()) == (pytest.approx([0.0, 0.4]), pytest.approx([0.0, 0.0]))
@@ -38,19 +39,19 @@ def test_an_open_track_begins_and_ends_at_its_points(write_track) -> None:
     'heading', ['', 'x,y\n', ' x [m], y [m]\n', 'x_m,y_m\n', '\ufeffx,y\n', '\n\n']
 )
 def test_a_heading_a_byte_order_mark_and_blank_lines_do_no_harm(write_track, heading) -> None:
-    with_heading = from_csv(write_track(POINTS, heading))
-    assert with_heading.length == from_csv(write_track(POINTS)).length
+    with_heading = read_track(write_track(POINTS, heading))
+    assert with_heading.length == read_track(write_track(POINTS)).length
 
 
 def test_points_that_repeat_do_no_harm(write_track) -> None:
-    repeated = from_csv(write_track(np.repeat(POINTS, 3, axis=0)))
-    assert repeated.length == from_csv(write_track(POINTS)).length
+    repeated = read_track(write_track(np.repeat(POINTS, 3, axis=0)))
+    assert repeated.length == read_track(write_track(POINTS)).length
 
 
 @pytest.mark.parametrize('aside', [0.0, 1e-15, 5e-5])
 def test_points_at_the_same_place_do_not_bend_the_track(write_track, aside) -> None:
     straight = np.array([[0.0, 0.0], [0.1, 0.0], [0.1, aside], [0.2, 0.0], [0.3, 0.0], [0.4, 0.0]])
-    track = from_csv(write_track(straight))
+    track = read_track(write_track(straight))
     _, y, _, _ = track.at(np.linspace(0.0, track.length, 200))
     assert (track.length, np.abs(y).max()) == (pytest.approx(0.4, abs=1e-6), pytest.approx(0.0))
 
@@ -60,7 +61,7 @@ def test_a_closed_track_stays_closed_where_its_last_points_lie_close(write_track
     angle[-2] -= 1e-4
     circle = 0.2 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     circle[-1] = circle[0]
-    assert from_csv(write_track(circle)).closed
+    assert read_track(write_track(circle)).closed
 
 
 @pytest.mark.parametrize('heading', ['y,x\n', 'x_mm,y_mm\n', 'time,x\n'])
@@ -75,7 +76,7 @@ def test_a_track_too_short_to_be_pushed_is_refused(write_track) -> None:
 def test_very_many_points_are_thinned_by_arc_length(write_track) -> None:
     # crowded at one end, as a drawing tool would leave them
     angle = 0.5 * math.pi * np.linspace(0.0, 1.0, 5 * MAX_KNOTS) ** 3
-    track = from_csv(write_track(0.3 * np.stack([np.sin(angle), np.cos(angle)], axis=-1)))
+    track = read_track(write_track(0.3 * np.stack([np.sin(angle), np.cos(angle)], axis=-1)))
     assert track.length == pytest.approx(0.5 * math.pi * 0.3, rel=1e-5)
     x, y, _, _ = track.at(np.linspace(0.0, track.length, 500))
     assert np.hypot(x, y) == pytest.approx(np.full(500, 0.3), abs=1e-6)

@@ -3,8 +3,9 @@ import math
 import numpy as np
 import pytest
 from push_core.common.errors import InputError
-from push_core.tracks import track as tracks
-from push_core.tracks.track import ArcTrack
+from push_core.tracks import built_in as tracks
+from push_core.tracks.arc_track import ArcTrack
+from push_core.tracks.track_csv import read_track
 
 PI = math.pi
 CLOSED = ['eight', 'square']
@@ -13,7 +14,7 @@ CLOSED = ['eight', 'square']
 @pytest.fixture(params=['eight', 'square', 'line', 'circle'])
 def track(request, circle_csv):
     name = request.param
-    return tracks.from_csv(circle_csv) if name == 'circle' else tracks.by_name(name)
+    return read_track(circle_csv) if name == 'circle' else tracks.by_name(name)
 
 
 def places(track, count=5001):

@@ -10,7 +10,7 @@ import pytest
 from push_core.geometry.frames import Array
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
-from push_core.tracks.track import by_name
+from push_core.tracks.built_in import by_name
 from push_mpc.loop.controller import Controller, Mode, Tick
 from push_mpc.plan.nominal import Plan, flat_plan
 from push_mpc.plan.planning import planned

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from push_core.physics.motion_cone import MotionCone
-from push_core.tracks.track import by_name
+from push_core.tracks.built_in import by_name
 from push_mpc.motion.dynamics import TravelMotion
 from push_mpc.plan.consistent_plan import consistent_plan
 from push_mpc.plan.nominal import flat_plan

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from push_core.physics.limit_surface import LimitSurface
 from push_core.physics.motion_cone import ContactMode
-from push_core.tracks.track import by_name
+from push_core.tracks.built_in import by_name
 from push_mpc.loop.controller import Mode, horizon_stride
 from push_mpc.motion.contact_force import ContactForce
 from push_mpc.plan.nominal import flat_plan

@@ -6,7 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from push_core.physics.motion_cone import ContactMode, MotionCone
-from push_core.tracks.track import ArcTrack, SplineTrack, by_name
+from push_core.tracks.arc_track import ArcTrack
+from push_core.tracks.built_in import by_name
+from push_core.tracks.spline_track import SplineTrack
 from push_mpc.motion.dynamics import rates
 from push_mpc.plan.nominal import TooTightError, flat_plan
 from scipy.integrate import solve_ivp

@@ -1,6 +1,8 @@
 """Tracks: paths of the object by arc length, built in or read from CSV."""
 
+from push_core.tracks.arc_track import ArcTrack
+from push_core.tracks.built_in import TRACKS, by_name
 from push_core.tracks.completion import is_completed
-from push_core.tracks.track import TRACKS, ArcTrack, Track, by_name
+from push_core.tracks.track import Track
 
 __all__ = ['TRACKS', 'ArcTrack', 'Track', 'by_name', 'is_completed']
