@@ -118,6 +118,7 @@ case "$*" in
     [ "$BUILD" = whole ] || { echo 'x.cpp:1: error: no such thing'; exit 1; }
     echo whole > "$2/pybullet-3.2.7-cp313-cp313-linux_x86_64.whl" ;;
   *--only-binary*) echo 'ERROR: No matching distribution found'; exit 1 ;;
+  *'pip install'*) echo installed >> "$BUILDS" ;;
 esac
 """
 
@@ -159,7 +160,7 @@ def test_pybullet_is_compiled_once_for_all_clones(install_pybullet, project, tmp
     shutil.copytree(project, other, ignore=shutil.ignore_patterns('.venv', '.cache'))
     second = install_pybullet(clone=other)
     assert (first.returncode, second.returncode, second.stdout) == (0, 0, '')
-    assert (tmp_path / 'builds').read_text() == 'built\n'
+    assert (tmp_path / 'builds').read_text().split() == ['built', 'installed', 'installed']
     (wheel,) = (tmp_path / 'home/.cache/push_cell/wheels').rglob('*.whl')
     assert wheel.read_text() == 'whole\n'
 
@@ -189,6 +190,17 @@ def test_a_home_that_cannot_be_written_is_done_without(install_pybullet, project
 def test_the_cache_is_where_the_user_wants_it(install_pybullet, tmp_path):
     install_pybullet(XDG_CACHE_HOME=str(tmp_path / 'caches'))
     assert list((tmp_path / 'caches/push_cell/wheels/glibc-2.41').glob('*.whl'))
+
+
+@pytest.mark.parametrize(('status', 'done'), [(0, ['built']), (1, ['built', 'installed'])])
+def test_uv_goes_before_pip_which_goes_on_if_uv_fails(
+    install_pybullet, tools, tmp_path, status, done
+):
+    add_tool(tools, 'uv', f'exit {status}')
+    result = install_pybullet(PATH=f'{tools}:/usr/bin:/bin')
+    assert result.returncode == 0
+    assert ('uv failed, pip goes on' in result.stdout) == bool(status)
+    assert (tmp_path / 'builds').read_text().split() == done
 
 
 @pytest.mark.parametrize('name', LOCKS)
