@@ -3,6 +3,8 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
+from push_core.common import markdown_table as markdown_lines
+
 BenchResults: TypeAlias = Mapping[str, Any]
 """The JSON object of a benchmark."""
 
@@ -10,10 +12,10 @@ PAPER_KEYS = ('median_mm', 'truth_median_mm', 'spread_mm', 'paper_mm')
 """Of a row of `bench table`: median errors of the measured and of the true poses, and others."""
 
 
-def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A Markdown table of heads and rows of cells."""
-    lines = [_line(heads), '|' + '---|' * len(heads), *map(_line, rows)]
-    return '\n'.join(lines) + '\n'
+def markdown_table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    """A Markdown table of a head and rows of cells."""
+    cells = (tuple(map(str, row)) for row in rows)
+    return '\n'.join(markdown_lines(head, cells)) + '\n'
 
 
 def paper_rows(results: BenchResults) -> str:
@@ -182,7 +184,3 @@ def _millimetres(value: float | None) -> str:
 
 def _range(pair: Sequence[float]) -> str:
     return f'{pair[0]:.2f}–{pair[1]:.2f}'
-
-
-def _line(cells: Sequence[object]) -> str:
-    return '| ' + ' | '.join(map(str, cells)) + ' |'

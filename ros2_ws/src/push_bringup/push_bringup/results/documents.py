@@ -11,7 +11,8 @@ from typing import Any
 
 from push_core.common import InputError
 
-from push_bringup.bench import TABLES, BenchResults, experiment_name, markdown_table, time_ranges
+from push_bringup.bench import BenchResults, experiment_name, markdown_table, time_ranges
+from push_bringup.results.commands import COMMANDS
 from push_bringup.results.figures import Figure, figures
 from push_bringup.results.results_file import Results
 from push_bringup.results.sections import SECTIONS, Section
@@ -71,8 +72,9 @@ def _table(name: str, sections: Results) -> str:
     if name in _SHORT_TABLES:
         section, table = _SHORT_TABLES[name]
         return table(_known(sections, section, 'section')['results'])
-    benches = {section.name: section.bench for section in SECTIONS}
-    return TABLES[_known(benches, name, 'table')](_known(sections, name, 'section')['results'])
+    commands = {section.name: section.command for section in SECTIONS}
+    table = COMMANDS[_known(commands, name, 'table')].table
+    return table(_known(sections, name, 'section')['results'])
 
 
 def _paper_summary(results: BenchResults) -> str:
@@ -104,15 +106,15 @@ def _head(made: Mapping[str, Any]) -> str:
         '# Results\n\n'
         'Written from results.json by `ros2 run push_bringup bench results`; below each title is '
         'the command of its table. Errors are distances between the object and the reference '
-        'point of the same instant, the mean over a run. In process with the PyBullet plant, '
-        'except for the last section. Everything random is drawn from seeds 0, 1, ….\n\n'
+        'point of the same instant, the mean over a run. In process with the PyBullet plant '
+        'unless the section says otherwise. Everything random is drawn from seeds 0, 1, ….\n\n'
         f'{_made(made)}\n'
     )
 
 
 def _section(section: Section, result: Mapping[str, Any], head: Mapping[str, Any]) -> str:
     own = '' if result['made'] == head else f'{_made(result["made"])}\n\n'
-    table = TABLES[section.bench](result['results'])
+    table = COMMANDS[section.command].table(result['results'])
     return f'## {section.title}\n\n{section.text}\n\n`{result["command"]}`\n\n{own}{table}'
 
 

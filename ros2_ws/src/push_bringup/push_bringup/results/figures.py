@@ -64,6 +64,22 @@ def _real_time(section: str, results: Mapping[str, Any]) -> Named:
     yield f'{section}_largest_deviation_percent', 100 * max(abs(row['ratio'] - 1) for row in rows)
 
 
+def _plant(section: str, results: Mapping[str, Any]) -> Named:
+    short = results['pushes_4mm']
+    yield f'{section}_nmse', short['nmse_push_frame']['mean']
+    yield f'{section}_nmse_ellipsoid', short['limit_surface']['nmse_push_frame']['mean']
+    for run in results['robot_runs']:
+        name = _word(run['file'].removesuffix('.csv'))
+        yield f'{section}_{name}_tip', run['tip_rms_mm']
+        yield f'{section}_{name}_tip_distance', run['tip_distance_rms_mm']
+
+
+def _learning_curve(section: str, results: Mapping[str, Any]) -> Named:
+    for point in results['points']:
+        name = f'{section}_{point["n"]}_{_word(point["method"])}'
+        yield name, point['nmse_push_frame']['median']
+
+
 _FIGURES = {
     'table': _paper_rows,
     'harsh': _paper_rows,
@@ -73,6 +89,8 @@ _FIGURES = {
     'solver_gp': _solvers,
     'solver_analytical': _solvers,
     'real_time': _real_time,
+    'plant': _plant,
+    'learning_curve': _learning_curve,
 }
 
 

@@ -1,4 +1,4 @@
-"""`bench results`: runs every benchmark of the controllers and publishes their results."""
+"""`bench results`: runs the benchmarks and comparisons and publishes their results."""
 
 import argparse
 import contextlib
@@ -12,7 +12,8 @@ from typing import Any
 
 from push_core.common import InputError, Parser, RunError, run_command, write_atomically
 
-from push_bringup.bench import BENCHES, check_positive
+from push_bringup.bench import check_positive
+from push_bringup.results.commands import COMMANDS
 from push_bringup.results.documents import document_paths, quoted, results_page
 from push_bringup.results.results_file import provenance, read_results, write_results
 from push_bringup.results.sections import SECTIONS, Section
@@ -41,7 +42,10 @@ def parser() -> Parser:
     described.add_argument('--draws', type=int, default=10, help='of each size (default 10)')
     described.add_argument('--runs', type=int, default=3, help='in real time, of each row')
     described.add_argument(
-        '--measured', type=Path, metavar='FILE', help='measured pushes, to train on as well'
+        '--measured',
+        type=Path,
+        metavar='FILE',
+        help='measured pushes; the runs of the robot are expected next to them',
     )
     names = tuple(section.name for section in SECTIONS)
     described.add_argument(
@@ -105,11 +109,13 @@ def chosen(arguments: argparse.Namespace) -> list[Section]:
     names = arguments.only or [
         section.name
         for section in SECTIONS
-        if section.name != 'measured' or arguments.measured is not None
+        if arguments.measured is not None or not section.needs_data
     ]
-    if 'measured' in names and arguments.measured is None:
-        raise InputError('section measured needs --measured FILE')
-    return [section for section in SECTIONS if section.name in names]
+    sections = [section for section in SECTIONS if section.name in names]
+    for section in sections:
+        if section.needs_data and arguments.measured is None:
+            raise InputError(f'section {section.name} needs --measured FILE')
+    return sections
 
 
 def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]:
@@ -118,17 +124,21 @@ def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]
     Raises:
         RunError: it printed no result.
     """
-    bench = importlib.import_module(BENCHES[section.bench][0])
+    command = COMMANDS[section.command]
     options = options_of(section, arguments)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        status = bench.main([*options, *_work_options(section, arguments), '--json'])
+        module = importlib.import_module(command.module)
+        status = module.main([*options, *_work_options(section, arguments), '--json'])
     if status not in (0, 1) or not printed.getvalue():
-        raise RunError(f'bench {section.bench} ended with status {status}')
-    # the name of a data file decides the figures, not where it lies
-    words = (Path(word).name if word.endswith('.csv') else word for word in options)
+        raise RunError(f'{command.text} ended with status {status}')
+    # the data decide the figures, not where they lie
+    words = [
+        Path(word).name if '{measured' in template else word
+        for word, template in zip(options, section.options, strict=True)
+    ]
     return {
-        'command': ' '.join(('ros2 run push_bringup bench', section.bench, *words)),
+        'command': ' '.join((command.text, *words)),
         'made': provenance(),
         'results': json.loads(printed.getvalue()),
     }
@@ -141,11 +151,11 @@ def options_of(section: Section, arguments: argparse.Namespace) -> list[str]:
 
 def _work_options(section: Section, arguments: argparse.Namespace) -> list[str]:
     """Where a benchmark keeps what it made already."""
-    if section.bench == 'timing':
+    if section.command in ('timing', 'validate', 'curve'):
         return []
-    if section.bench == 'realtime':
+    if section.command == 'realtime':
         return ['-o', str(WORK / 'realtime')]
-    models = ['--models', str(WORK / 'models')] if section.bench == 'data' else []
+    models = ['--models', str(WORK / 'models')] if section.command == 'data' else []
     fresh = ['--fresh'] if arguments.fresh else []
     return ['--laps-file', str(WORK / f'{section.name}.jsonl'), *models, *fresh]
 

@@ -1,25 +1,30 @@
-"""The sections of docs/results.md: the benchmark of each, its options and its introduction."""
+"""The sections of docs/results.md: the command of each, its options and its introduction."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Section:
-    """One benchmark and its place in the page.
+    """One command and its place in the page.
 
     Attributes:
         name: its key in results.json.
         title: its heading.
         text: what to know before the table.
-        bench: word after `bench`.
+        command: its name in `COMMANDS`.
         options: of the command; `{seeds}` and the like stand for options of `bench results`.
     """
 
     name: str
     title: str
     text: str
-    bench: str
+    command: str
     options: tuple[str, ...]
+
+    @property
+    def needs_data(self) -> bool:
+        """Whether it needs measured pushes."""
+        return any('{measured' in option for option in self.options)
 
 
 SECTIONS = (
@@ -88,5 +93,25 @@ SECTIONS = (
         'that takes the cores away commands are late, and after 0.5 s without a pose a lap ends.',
         'realtime',
         ('--runs', '{runs}'),
+    ),
+    Section(
+        'plant',
+        'The plant',
+        'Measured pushes and robot runs, repeated in the simulator and with the ellipsoid that fits '
+        'the short pushes best (docs/plant.md).',
+        'validate',
+        ('--data', '{measured.parent}'),
+    ),
+    Section(
+        'learning_curve',
+        'The model',
+        'Mean NMSE in the push frame on measured pushes that the model has not seen, median '
+        '(worst) of the seeds: a GP with zero mean, one over the fitted motion cone, and that cone '
+        'alone (docs/model.md).',
+        'curve',
+        (
+            *('{measured}', '--seeds', '{seeds}'),
+            *('--points', '5', '10', '20', '50', '100', '200', '500', '1000'),
+        ),
     ),
 )

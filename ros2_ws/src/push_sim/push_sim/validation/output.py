@@ -109,14 +109,18 @@ def validation_table(figures: Mapping[str, Any], profile: str) -> str:
         figures: all of them.
         profile: name of the plant's profile.
     """
-    rows = [
+    missing = (f'no {_KINDS[each]}: there is no {each}' for each in figures['missing'])
+    return '\n'.join([*plain_table(validation_rows(figures, profile)), *missing, ''])
+
+
+def validation_rows(figures: Mapping[str, Any], profile: str) -> list[tuple[str, ...]]:
+    """The cells of `validation_table`, its head first."""
+    return [
         (f'profile {profile}', 'simulator', 'ellipsoid', 'reference'),
         *_short_rows(figures['pushes_4mm']),
         *(row for each in figures['pushes_50mm'] for row in _long_rows(each)),
         *(row for each in figures['robot_runs'] for row in _run_rows(each)),
     ]
-    missing = (f'no {_KINDS[each]}: there is no {each}' for each in figures['missing'])
-    return '\n'.join([*plain_table(rows), *missing, ''])
 
 
 def _row(title: str, first: float | None, second: float | None, reference: str = '') -> _Row:
