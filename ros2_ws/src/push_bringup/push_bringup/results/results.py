@@ -45,7 +45,7 @@ def parser() -> Parser:
         '--measured',
         type=Path,
         metavar='FILE',
-        help='measured pushes; the runs of the robot are expected next to them',
+        help='measured pushes, with robot runs next to them',
     )
     names = tuple(section.name for section in SECTIONS)
     described.add_argument(
@@ -78,9 +78,11 @@ def work(arguments: argparse.Namespace) -> None:
         raise InputError(f'{arguments.measured}: no such file')
     path = arguments.output.with_suffix('.json')
     sections = dict(read_results(path)) if path.is_file() or arguments.write else {}
+    # before the first section changes results.json
+    made = provenance()
     for section in [] if arguments.write else chosen(arguments):
         sys.stderr.write(f'{section.title}\n')
-        sections[section.name] = result_of(section, arguments)
+        sections[section.name] = {**result_of(section, arguments), 'made': made}
         write_results(path, sections)
     write_documents(arguments.output)
 
@@ -119,7 +121,7 @@ def chosen(arguments: argparse.Namespace) -> list[Section]:
 
 
 def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]:
-    """Runs the benchmark of a section.
+    """Runs the command of a section; returns how it is called and what it printed.
 
     Raises:
         RunError: it printed no result.
@@ -139,7 +141,6 @@ def result_of(section: Section, arguments: argparse.Namespace) -> dict[str, Any]
     ]
     return {
         'command': ' '.join((command.text, *words)),
-        'made': provenance(),
         'results': json.loads(printed.getvalue()),
     }
 

@@ -97,8 +97,8 @@ SECTIONS = (
     Section(
         'plant',
         'The plant',
-        'Measured pushes and robot runs, repeated in the simulator and with the ellipsoid that fits '
-        'the short pushes best (docs/plant.md).',
+        'Measured pushes and robot runs, repeated in the simulator and with the ellipsoid that '
+        'fits the short pushes best (docs/plant.md).',
         'validate',
         ('--data', '{measured.parent}'),
     ),
@@ -106,8 +106,8 @@ SECTIONS = (
         'learning_curve',
         'The model',
         'Mean NMSE in the push frame on measured pushes that the model has not seen, median '
-        '(worst) of the seeds: a GP with zero mean, one over the fitted motion cone, and that cone '
-        'alone (docs/model.md).',
+        '(worst) of the seeds: a GP with zero mean, one over the fitted motion cone, and that '
+        'cone alone (docs/model.md).',
         'curve',
         (
             *('{measured}', '--seeds', '{seeds}'),
