@@ -81,22 +81,22 @@ def test_laps_that_are_there_are_not_pushed_again(tmp_path) -> None:
 def test_the_table_tells_median_spread_and_completed_laps() -> None:
     laps = (with_error(1.0), with_error(2.0), with_error(4.0, completed=False))
     row = PaperRow(Experiment('eight', 0.08), 'gp', 'irb120', laps)
-    told = row.as_json()
-    assert (told['median_mm'], told['spread_mm'], told['completed']) == (2.0, 3.0, 2)
-    assert told['truth_median_mm'] == 1.0
-    assert told['paper_mm'] == PAPER_MM[row.experiment]['gp'] == 8.5
-    assert '| 2 of 3 | 2.00 mm | 1.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [told]})
+    values = row.as_json()
+    assert (values['median_mm'], values['spread_mm'], values['completed']) == (2.0, 3.0, 2)
+    assert values['truth_median_mm'] == 1.0
+    assert values['paper_mm'] == PAPER_MM[row.experiment]['gp'] == 8.5
+    assert '| 2 of 3 | 2.00 mm | 1.00 mm | 3.00 mm | 8.50 mm |' in paper_rows({'rows': [values]})
     assert 'eight 80 mm' in paper_page([row])
 
 
 def test_a_size_tells_the_quartiles_of_the_laps_that_were_completed() -> None:
     laps = (*(with_error(error) for error in (1.0, 2.0, 3.0)), with_error(90.0, False))
-    told = SizeRow(10, 'zero', 'random', laps).as_json()
-    assert (told['draws'], told['completed'], told['median_mm']) == (4, 3, 2.0)
-    assert told['quartiles_mm'] == [1.5, 2.5]
+    values = SizeRow(10, 'zero', 'random', laps).as_json()
+    assert (values['draws'], values['completed'], values['median_mm']) == (4, 3, 2.0)
+    assert values['quartiles_mm'] == [1.5, 2.5]
     nothing = SizeRow(5, 'zero', 'die', (with_error(9.0, completed=False),)).as_json()
     assert nothing['median_mm'] is nothing['quartiles_mm'] is None
-    json.dumps([told, nothing], allow_nan=False)
+    json.dumps([values, nothing], allow_nan=False)
     assert 'analytical controller' in training_size_page(
         [SizeRow(10, 'zero', 'random', laps)], LAP
     )
@@ -153,9 +153,9 @@ def test_real_time_is_a_ratio_to_in_process_and_the_range_of_each_time() -> None
         real_time_score(9.0, False, 0.125),
     )
     row = RealTimeRow(LINE, 'gp', (1.0, 2.0, 4.0), scores)
-    told = row.as_json()
-    assert (told['in_process_mm'], told['real_time_mm'], told['ratio']) == (2.0, 2.5, 1.25)
-    assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 9 |' in real_time_rows({'rows': [told]})
+    values = row.as_json()
+    assert (values['in_process_mm'], values['real_time_mm'], values['ratio']) == (2.0, 2.5, 1.25)
+    assert '| 2 of 3 | 2.00 mm | 2.50 mm | 1.25 | 9 |' in real_time_rows({'rows': [values]})
     times = times_json('gp', [row])
     assert times['solve_ms'] == {'p50': [0.125, 0.5], 'p99': [0.25, 1.0], 'max': [0.375, 1.5]}
     assert '| gp | 3 | 0.12–0.50 | 0.25–1.00 |' in time_ranges({'times': [times]})
@@ -174,6 +174,6 @@ def test_an_ablation_names_laps_that_were_not_completed_or_never_tracked() -> No
     assert f'| without it | {errors} | 3 mm/s |' in table
 
 
-def test_stopping_is_told_by_median_and_largest() -> None:
-    told = stopping.text([0.5, 0.75, 2.0])
-    assert 'median 0.75 s, largest 2.00 s of 3 runs' in told
+def test_stopping_is_stated_as_median_and_largest() -> None:
+    values = stopping.text([0.5, 0.75, 2.0])
+    assert 'median 0.75 s, largest 2.00 s of 3 runs' in values

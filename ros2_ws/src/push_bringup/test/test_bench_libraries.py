@@ -21,7 +21,7 @@ def pushes() -> PushSet:
 
 
 @pytest.mark.parametrize('fit', [fit_scikit_learn, fit_gpytorch])
-def test_a_rival_at_its_optimum_says_what_we_say_at_ours(pushes: PushSet, fit) -> None:
+def test_other_libraries_find_the_same_optimum_and_predictions(pushes: PushSet, fit) -> None:
     if fit is fit_gpytorch and importlib.util.find_spec('gpytorch') is None:
         pytest.skip('no gpytorch; make setup EXTRA=bench installs it')
     ours, theirs = fit_ours(pushes), fit(pushes)
@@ -42,12 +42,12 @@ def test_the_comparison_names_what_it_measured(
     monkeypatch.setitem(libraries.LIBRARIES, 'GPyTorch', ('no_such_library', fit_gpytorch))
     assert libraries.main([str(tmp_path / 'pushes.csv'), '--points', '40', '--json']) == 0
     shown = capsys.readouterr()
-    told = json.loads(shown.out)
-    assert told['points'] == 40
-    (rival,) = told['rivals']
-    assert rival['name'] == 'push_gp'
-    assert 0.0 < rival['nmse_push_frame'] < 0.2
-    assert rival['fit_s'] > 0.0
+    printed = json.loads(shown.out)
+    assert printed['points'] == 40
+    (library,) = printed['rivals']
+    assert library['name'] == 'push_gp'
+    assert 0.0 < library['nmse_push_frame'] < 0.2
+    assert library['fit_s'] > 0.0
     assert "GPyTorch is not installed: 'make setup EXTRA=bench' does it" in shown.err
 
 

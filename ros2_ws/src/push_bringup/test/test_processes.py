@@ -14,17 +14,17 @@ HANG = 60.0  # [s]
 
 @pytest.fixture
 def started(tmp_path, monkeypatch):
-    """Starts nodes by the text of their programs."""
+    """Starts nodes from their source text."""
 
-    def start(**programs):
-        for name, program in programs.items():
-            (tmp_path / f'{name}.py').write_text(program)
+    def start(**sources):
+        for name, source in sources.items():
+            (tmp_path / f'{name}.py').write_text(source)
         monkeypatch.setenv('PYTHONPATH', str(tmp_path))
-        monkeypatch.setattr(processes, 'MODULES', {name: name for name in programs})
+        monkeypatch.setattr(processes, 'MODULES', {name: name for name in sources})
         nodes = Processes(tmp_path / 'params.yaml', '', tmp_path)
         nodes.start()
         end = time.monotonic() + HANG
-        while not all((tmp_path / f'{name}.log').read_text() for name in programs):
+        while not all((tmp_path / f'{name}.log').read_text() for name in sources):
             assert time.monotonic() < end
             time.sleep(0.01)
         return nodes

@@ -1,4 +1,4 @@
-"""All solvers that are installed find the same first inputs."""
+"""All installed solvers return the same first inputs."""
 
 from dataclasses import replace
 
@@ -18,12 +18,12 @@ from push_sim.settings.plant_settings import PerturbationKind
 
 @pytest.fixture(scope='module', params=['gp', 'analytical'])
 def recorded(request, tmp_path_factory):
-    """Each program of 60 ticks with a kick."""
+    """The QPs of 60 ticks with a kick."""
     folder = tmp_path_factory.mktemp('run')
-    # the plan costs seconds, and any plan asks for such programs
+    # the plan costs seconds, and any plan gives such QPs
     flat = {'mpc_node.consistent_plan': False}
-    wanted = replace(lap_request(request.param, 'analytical', 0), overrides=flat)
-    parameters = resolved(wanted, installed_config('cell.yaml'), folder, folder)
+    request_of_lap = replace(lap_request(request.param, 'analytical', 0), overrides=flat)
+    parameters = resolved(request_of_lap, installed_config('cell.yaml'), folder, folder)
     cell = InProcessCell(parameters, AnalyticalModel(), planned(parameters.mpc))
     ticks = []
 
@@ -43,19 +43,19 @@ def recorded(request, tmp_path_factory):
 # OSQP's own defaults stop too early for this: that is what the benchmark shows
 @pytest.mark.parametrize('name', [name for name in SOLVERS if name not in IN_SI_UNITS])
 def test_a_solver_finds_the_exact_first_inputs(recorded, name) -> None:
-    for programs in zip(*recorded, strict=True):
+    for problems in zip(*recorded, strict=True):
         try:
-            solver = SOLVERS[name](programs[0])
+            solver = SOLVERS[name](problems[0])
         except ImportError:
             pytest.skip(f'{name} is not installed; make setup EXTRA=bench')
-        reference = exact(programs[0])
-        for problem in programs[::7]:
-            found, _ = solver.solve(problem)
+        reference = exact(problems[0])
+        for problem in problems[::7]:
+            variables, _ = solver.solve(problem)
             first = slice(problem.states, problem.states + 2)
-            assert np.abs(found - reference.solve(problem)[0])[first].max() < 0.05  # cm/s
+            assert np.abs(variables - reference.solve(problem)[0])[first].max() < 0.05  # cm/s
 
 
-def test_the_program_in_si_units_is_the_same_program(recorded) -> None:
+def test_the_qp_in_si_units_is_the_same_qp(recorded) -> None:
     problem = recorded[-1][0]
     again = problem.in_si_units()
     z = np.random.default_rng(0).normal(size=problem.linear.size)
