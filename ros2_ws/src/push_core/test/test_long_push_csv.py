@@ -80,7 +80,7 @@ def test_errors_are_those_of_the_end_pose_whatever_turns_the_heading_counts(
     [
         ('x0_m', 335.0, 'line 3: x0_m is 335; metres and radians are expected'),
         ('theta1_rad', math.nan, 'line 3: theta1_rad is nan, not a finite number'),
-        ('tip_x0_m', 0.0, 'line 3: the tip begins .* away from the face'),
+        ('tip_x0_m', 0.0, 'line 3: the tip starts .* away from the face'),
     ],
 )
 def test_a_row_that_is_no_push_is_named(

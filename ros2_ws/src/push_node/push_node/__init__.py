@@ -1,1 +1,1 @@
-"""What every node of the cell shares: spinning, parameters, quality of service, diagnostics."""
+"""Shared by all nodes: spinning, parameters, topics and services, diagnostics."""

@@ -1,7 +1,7 @@
-"""Calling a service whose answer may get lost.
+"""Service calls that are repeated until a response arrives.
 
-While the nodes are still discovering each other a server may not know its client yet: it then
-throws its answer away. Only asking again helps.
+While the nodes discover each other, a server may not know its client yet. It then drops the
+response, and the request has to be sent again.
 """
 
 from collections.abc import Callable
@@ -10,22 +10,22 @@ from typing import Any, TypeAlias
 from rclpy.client import Client
 
 WaitsFor: TypeAlias = Callable[[Callable[[], bool], float], bool]
-"""Spins until a condition holds, at most for a time [s]; returns whether it holds."""
+"""Spins until a condition holds, at most for a timeout [s]; returns whether it holds."""
 
 READY_TIMEOUT = 30.0  # [s]
-ANSWER_TIMEOUT = 2.0  # [s] for one attempt
+RESPONSE_TIMEOUT = 2.0  # [s] of one attempt
 ATTEMPTS = 10
 
 
 def ask(client: Client, request: object, waits_for: WaitsFor) -> Any:
-    """The answer of a service, or None where there is no service or it does not answer.
+    """Calls a service; returns its response, or None if there is no service or no response.
 
-    The request is sent again until an answer comes, so that asking twice must do no harm.
+    The service must be idempotent: the request may be sent again.
     """
     if not waits_for(client.service_is_ready, READY_TIMEOUT):
         return None
     for _ in range(ATTEMPTS):
         future = client.call_async(request)
-        if waits_for(future.done, ANSWER_TIMEOUT):
+        if waits_for(future.done, RESPONSE_TIMEOUT):
             return future.result()
     return None

@@ -1,4 +1,4 @@
-"""One line of health per node on /diagnostics."""
+"""The status of a node on /diagnostics."""
 
 from collections.abc import Mapping
 
@@ -9,7 +9,7 @@ from push_node import interface
 
 
 def status_name(node_name: str, name: str) -> str:
-    """How a status of a node (fully qualified name) is called on /diagnostics."""
+    """Name on /diagnostics of a status of a node, given by its fully qualified name."""
     return f'{node_name}: {name}'
 
 
@@ -22,7 +22,7 @@ class Reporter:
         self._publisher = interface.DIAGNOSTICS.publisher(node)
 
     def report(self, ok: bool, message: str, values: Mapping[str, str]) -> None:
-        """Says how the node is; call it once a second and on every change."""
+        """Publishes the status; call it once a second and on every change."""
         status = DiagnosticStatus(
             level=DiagnosticStatus.OK if ok else DiagnosticStatus.ERROR,
             name=self._name,

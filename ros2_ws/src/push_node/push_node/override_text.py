@@ -1,4 +1,4 @@
-"""Parameter overrides on the command line of programs that are no nodes: `NAME:=VALUE`."""
+"""Parameter overrides on the command line of commands: `-p NAME:=VALUE`."""
 
 import yaml
 from push_core.common import InputError
@@ -11,7 +11,7 @@ def parsed_override(text: str) -> tuple[str, object]:
         text: `NAME:=VALUE`, the value in YAML as ROS takes it.
 
     Raises:
-        InputError: it is written otherwise.
+        InputError: the text has another form.
     """
     name, separator, value = text.partition(':=')
     if not (name and separator and value):

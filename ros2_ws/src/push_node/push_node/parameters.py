@@ -1,4 +1,4 @@
-"""Parameters of a node, declared once from its settings class."""
+"""Parameters of a node, declared from its settings class."""
 
 from typing import Any, TypeVar
 
@@ -11,7 +11,7 @@ _NOT_OURS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
 
 
 def declared(node: Node, defaults: T) -> T:
-    """Declares every value of a settings object as a parameter and applies the overrides.
+    """Declares every value of a settings object as a parameter; returns the settings in effect.
 
     Args:
         node: the node that owns the parameters.
@@ -23,7 +23,7 @@ def declared(node: Node, defaults: T) -> T:
     Raises:
         InputError: an unknown parameter, a wrong type or a value out of range.
     """
-    # rclpy would ignore what the node does not have
+    # rclpy ignores overrides of parameters that the node does not have
     given = (name for name in node._parameter_overrides if not name.startswith(_NOT_OURS))
     reject_unknown(given, defaults, node.get_name())
     changes = {
@@ -34,7 +34,7 @@ def declared(node: Node, defaults: T) -> T:
 
 
 def override(node: Node, name: str, default: T) -> T:
-    """The value that the command line or the parameter file gives for one name, undeclared."""
+    """The override of one parameter before it is declared; `default` if there is none."""
     found = node._parameter_overrides.get(name)
     return default if found is None else found.value
 

@@ -3,7 +3,7 @@
 from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-# a deadline connects only where publisher and subscriber both name it
+# a deadline takes effect only if both publisher and subscriber have one
 POSE = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, deadline=Duration(nanoseconds=20_000_000)
 )

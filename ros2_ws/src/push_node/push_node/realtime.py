@@ -1,4 +1,4 @@
-"""What keeps a 10 ms loop in Python on time."""
+"""Garbage collection and scheduling of a process with a 10 ms loop."""
 
 import gc
 import os
@@ -7,21 +7,8 @@ from pathlib import Path
 _PRIORITY = 20
 
 
-def _stop_collecting() -> None:
-    """Ends the warm-up: no garbage collection from here on."""
-    gc.collect()
-    gc.freeze()
-    gc.disable()
-
-
 def _raise_priority() -> str:
-    """Asks for a real-time priority for all threads of the process.
-
-    For nodes that keep to the wall clock; at another pace it would starve those that do not.
-
-    Returns:
-        One line that says which scheduling the process got.
-    """
+    """Requests real-time priority for all threads of the process; returns the result in words."""
     try:
         for thread in Path('/proc/self/task').iterdir():
             os.sched_setscheduler(int(thread.name), os.SCHED_FIFO, os.sched_param(_PRIORITY))
@@ -30,11 +17,17 @@ def _raise_priority() -> str:
     return f'real-time scheduling, SCHED_FIFO {_PRIORITY}'
 
 
-def settled(mode: str) -> str:
-    """Ends the warm-up of a node that runs in a mode, `realtime` or `lockstep`.
+def enter_realtime(mode: str) -> str:
+    """Switches garbage collection off and requests real-time priority; call it after the warm-up.
+
+    Args:
+        mode: `realtime` or `lockstep`. In lockstep the priority stays ordinary: it would starve
+            the other nodes.
 
     Returns:
-        One line that says which scheduling the process got.
+        The scheduling that the process got, in one line.
     """
-    _stop_collecting()
+    gc.collect()
+    gc.freeze()
+    gc.disable()
     return _raise_priority() if mode == 'realtime' else 'ordinary scheduling'

@@ -1,4 +1,4 @@
-"""The main of every node: start, spin, stop on SIGINT or SIGTERM, one line for an error."""
+"""The main function of every node: start, spin, stop on SIGINT or SIGTERM, print an error."""
 
 import inspect
 import re
@@ -17,7 +17,7 @@ from rclpy.utilities import remove_ros_args
 
 _LONGEST_WAIT = 0.1  # [s]
 _HELP = """
-A node of the cell; `ros2 run push_bringup cell` starts those that it needs. It runs until Ctrl-C.
+A node of the cell. `ros2 run push_bringup cell` starts all nodes. It runs until Ctrl-C.
 
   --ros-args -p NAME:=VALUE        sets a parameter
   --ros-args --params-file FILE    sets many
@@ -27,7 +27,7 @@ _stop_requested = False
 
 
 def request_stop() -> None:
-    """Lets the node of this process end cleanly after the current callback."""
+    """Ends the node of this process cleanly after the current callback."""
     global _stop_requested  # noqa: PLW0603
     _stop_requested = True
 
@@ -36,7 +36,7 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
     """Runs one node until it is asked to stop.
 
     Args:
-        make_node: builds the node; its `destroy_node` does the clean-up.
+        make_node: makes the node; its `destroy_node` cleans up.
         argv: ROS arguments; default: those of the process.
 
     Returns:
@@ -65,27 +65,27 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
 
 
 class Spinner:
-    """Spins one node, in the only way in which this executor heeds signals and spares the core."""
+    """Spins one node with the events executor, in steps so that signals are handled."""
 
     def __init__(self, node: Node) -> None:
         self._executor = EventsExecutor()
         self._executor.add_node(node)
 
     def once(self) -> bool:
-        """Handles one event, or waits a moment for one; False once a stop was requested."""
+        """Handles one event, or waits up to 0.1 s for one; False after a stop was requested."""
         if not _stop_requested:
             self._executor.spin_once(timeout_sec=_LONGEST_WAIT)
         return not _stop_requested
 
 
 def stop_on_signals() -> None:
-    """Lets SIGINT and SIGTERM request a stop instead of ending the process at once."""
+    """Makes SIGINT and SIGTERM request a stop instead of ending the process at once."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _on_signal)
 
 
 def _wants_help(arguments: Sequence[str]) -> bool:
-    """Whether it is asked for; a node takes no other argument of its own."""
+    """Whether --help is given; a node has no other argument of its own."""
     with _ros_arguments():
         own = remove_ros_args(arguments)[1:]
     if own and own[0] not in ('-h', '--help'):
@@ -102,7 +102,7 @@ def _init(arguments: Sequence[str]) -> None:
 def _ros_arguments() -> Iterator[None]:
     try:
         yield
-    except Exception as error:  # rclpy's own kinds share no base class
+    except Exception as error:  # the exceptions of rclpy have no common base class
         raise InputError(f'bad ROS arguments: {error}') from error
 
 
@@ -116,7 +116,7 @@ def _made(make_node: Callable[[], Node]) -> Node:
 
 
 def _name(make_node: Callable[[], Node]) -> str:
-    """That of the executable: GpServer is gp_server."""
+    """Name of the executable: GpServer is gp_server."""
     return re.sub(r'(?<=.)(?=[A-Z])', '_', getattr(make_node, '__name__', 'node')).lower()
 
 

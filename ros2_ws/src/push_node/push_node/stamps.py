@@ -1,4 +1,4 @@
-"""Time stamps as whole nanoseconds and back."""
+"""Time stamps from and to nanoseconds."""
 
 from builtin_interfaces.msg import Time
 

@@ -1,4 +1,4 @@
-"""Names of topics as users write them, and in full."""
+"""Full names of the topics that users name."""
 
 from push_core.common import InputError
 from rclpy.exceptions import InvalidTopicNameException
@@ -6,14 +6,14 @@ from rclpy.node import Node
 
 
 def full_name(node: Node, name: str) -> str:
-    """A topic, or a pattern of topics such as `/arm/*`, with the node's namespace before it.
+    """The full name of a topic, or of a pattern of topics such as `/arm/*`.
 
     Raises:
-        InputError: no topic can have this name.
+        InputError: it is not a valid name.
     """
     if any(letter in name for letter in '*?['):
         return name if name.startswith('/') else f'{node.get_namespace().rstrip("/")}/{name}'
     try:
         return str(node.resolve_topic_name(name))
     except (InvalidTopicNameException, RuntimeError, ValueError):
-        raise InputError(f'no topic can be called {name!r}') from None
+        raise InputError(f'{name!r} is not a valid topic name') from None

@@ -1,6 +1,6 @@
-"""Figures that wait in the page as data until `figures.js` draws them, and what draws them.
+"""Figures that are stored in the page as data and drawn by `figures.js` when they come into view.
 
-A browser takes longer to draw a figure than to read it: so a report opens with its first alone.
+Drawing takes a browser longer than reading: a report opens as soon as its first figure is drawn.
 """
 
 from importlib.resources import files
@@ -12,7 +12,7 @@ LIBRARY = 'plotly/plotly-basic.min.js'
 
 def deferred(figure: go.Figure, name: str) -> str:
     """HTML of a figure of lines, points and bars; `name` becomes the id of its element."""
-    # plotly's JSON holds no '<', so that it cannot end the element that it stands in
+    # plotly's JSON has no '<', which could end the script element
     return (
         f'<div id="{name}" class="figure" style="height: {figure.layout.height}px"></div>'
         f'<script type="application/json" id="{name}-figure">{figure.to_json()}</script>'

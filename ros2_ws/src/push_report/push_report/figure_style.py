@@ -1,4 +1,4 @@
-"""How the figures of the report look: colours, fonts, and how many points they draw."""
+"""Style of the figures: colours, fonts, number of points."""
 
 from typing import Any
 
@@ -6,7 +6,7 @@ import numpy as np
 import plotly.graph_objects as go
 from numpy.typing import NDArray
 
-# Okabe and Ito's colours, which colour-blind readers tell apart
+# palette of Okabe and Ito, for colour-blind readers
 BLUE, ORANGE, GREEN, RED = '#0072b2', '#e69f00', '#009e73', '#d55e00'
 PURPLE, SKY = '#cc79a7', '#56b4e9'
 RUN_COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)  # of runs that share a figure

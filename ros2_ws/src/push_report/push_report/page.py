@@ -1,6 +1,6 @@
-"""One HTML page of text and plotly figures that needs nothing beside itself, also offline.
+"""HTML pages of text and plotly figures, self-contained, to be read offline.
 
-It imports plotly, which the rest of this package does without: import it only for a page.
+Importing plotly takes a second: import this module only when a page is written.
 """
 
 from collections.abc import Sequence
@@ -20,14 +20,14 @@ HEIGHT = 420
 def page(
     title: str, sections: Sequence[str], head: str = '', script: str = '', library: str = ''
 ) -> str:
-    """The page.
+    """HTML of a page.
 
     Args:
         title: of the page.
         sections: HTML of each, see `section`; figures without the drawing library.
         head: HTML above the sections; default: the title.
-        script: JavaScript that runs when all is there.
-        library: JavaScript that draws; default: plotly.js as a whole.
+        script: JavaScript that runs after the page has loaded.
+        library: JavaScript that draws the figures; default: all of plotly.js.
     """
     style = files('push_report').joinpath('page.css').read_text(encoding='utf-8')
     above = head or f'<h1>{escape(title)}</h1>'
@@ -40,7 +40,7 @@ def page(
 
 
 def section(heading: str, content: str) -> str:
-    """A part of the page under its heading, if it has one; the content is HTML."""
+    """HTML of a section: a heading, unless it is empty, and HTML content."""
     above = f'<h2>{escape(heading)}</h2>' if heading else ''
     return f'<section>{above}{content}</section>\n'
 
@@ -52,13 +52,13 @@ def drawn(figure: go.Figure, name: str | None = None) -> str:
 
 
 def write_page(path: Path, title: str, lines: Sequence[str], figures: Sequence[go.Figure]) -> None:
-    """Writes a plain page; whole or not at all.
+    """Writes a plain page atomically.
 
     Args:
         path: of the HTML file.
         title: of the page.
-        lines: figures in words, above the pictures.
-        figures: the pictures, top to bottom.
+        lines: text above the figures.
+        figures: from top to bottom.
 
     Raises:
         InputError: the file cannot be written.

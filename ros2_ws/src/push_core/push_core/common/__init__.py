@@ -1,4 +1,4 @@
-"""What is not about pushing: errors, settings, files, worker processes, command lines."""
+"""General helpers: errors, settings, files, text tables, worker processes, command lines."""
 
 from push_core.common.atomic_file import check_place, write_atomically
 from push_core.common.command_line import Parser, describe, run_command

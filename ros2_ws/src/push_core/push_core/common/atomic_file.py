@@ -1,4 +1,4 @@
-"""Files that are either written whole or not at all."""
+"""Files that are written completely or not at all."""
 
 import contextlib
 import os
@@ -9,10 +9,10 @@ from push_core.common.errors import InputError
 
 
 def check_place(path: Path) -> None:
-    """Refuses a file that could not be written, before the work for it is done.
+    """Checks that a file can be written, before the work for it begins.
 
     Raises:
-        InputError: its folder is missing or closed to us, or it is something else than a file.
+        InputError: its folder does not exist or is not writable, or it is not a regular file.
     """
     if path.is_dir():
         raise InputError(f'cannot write {path}: it is a folder')
@@ -22,21 +22,21 @@ def check_place(path: Path) -> None:
     if not folder.is_dir():
         raise InputError(f'cannot write {path}: there is no folder {path.parent}')
     try:
-        # only trying tells: not even root may write everywhere
+        # permission bits are not enough: not even root may write everywhere
         tempfile.TemporaryFile(dir=folder).close()
     except OSError as error:
         raise InputError(f'cannot write {path}: {error.strerror}') from error
 
 
 def write_atomically(path: Path, content: bytes) -> None:
-    """Writes a file beside its place and moves it there; a reader never sees half of it.
+    """Writes a file under a temporary name and renames it; a reader never sees half of it.
 
     Args:
-        path: where the file shall be; an existing one is replaced, a link followed.
-        content: all of it.
+        path: of the file; an existing one is replaced, a link followed.
+        content: of the file.
 
     Raises:
-        InputError: as `check_place`, or the disk is full.
+        InputError: see `check_place`; or the disk is full.
     """
     check_place(path)
     try:
@@ -52,7 +52,7 @@ def _write_and_move(path: Path, content: bytes) -> None:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        # mkstemp makes files private; give this one the rights of any other new file
+        # mkstemp makes private files; use the permissions of other new files
         Path(name).chmod(0o666 & ~_umask())
         Path(name).replace(path)
     except BaseException:

@@ -1,4 +1,4 @@
-"""The edge of every command: arguments in, one line of error and an exit status out."""
+"""Argument parsing, error messages and exit status of every command."""
 
 import argparse
 import os
@@ -35,12 +35,12 @@ def run_command(
     work: Callable[[argparse.Namespace], int | None],
     argv: Sequence[str] | None = None,
 ) -> int:
-    """Parses, works, and turns errors into one line; SIGTERM cleans up as Ctrl-C does.
+    """Runs a command: parses, works, prints an error as one line. SIGTERM acts like Ctrl-C.
 
     Args:
         parser: describes the command line.
-        work: does the job; returns the exit status, None for 0.
-        argv: arguments without the program's name; default: those of the process.
+        work: does the work; returns the exit status, None for 0.
+        argv: arguments without the name of the command; default: those of the process.
 
     Returns:
         Exit status: 0 done, 1 the run or check failed, 2 the command was wrong, 130 interrupted.
@@ -51,7 +51,7 @@ def run_command(
     try:
         return work(arguments) or 0
     except BrokenPipeError:
-        # the reader (head, less) went away: nobody is left to tell
+        # the reader (head, less) has closed the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 128 + signal.SIGPIPE
     except (PushError, OSError) as error:
@@ -65,7 +65,7 @@ def run_command(
 
 
 def describe(error: BaseException) -> str:
-    """One line for a user, also for an error of the operating system."""
+    """The message of an error in one line, also of an error of the operating system."""
     if isinstance(error, OSError) and error.strerror:
         return f'{error.filename}: {error.strerror}' if error.filename else error.strerror
     return ' '.join(str(error).split())

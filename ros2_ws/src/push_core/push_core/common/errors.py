@@ -1,8 +1,8 @@
-"""The errors of the project: one small tree, turned into one line at the command's edge."""
+"""The exceptions of the project. A command prints each as one line."""
 
 
 class PushError(Exception):
-    """Anything that a user can act on; the message is one line that says what to do.
+    """An error that a user can act on; the message is one line.
 
     Attributes:
         status: exit status of a command that ends with this error.
@@ -18,6 +18,6 @@ class InputError(PushError):
 
 
 class RunError(PushError):
-    """A run or a check failed after its input had been accepted."""
+    """A run or a check failed although its input was valid."""
 
     status = 1

@@ -1,7 +1,7 @@
 """Settings: frozen dataclasses whose fields carry description, unit and range.
 
-A component states its parameters once, as a frozen dataclass made of `setting` fields and nested
-settings. Nested ones become dotted names: `actuator.dead_time`.
+A component declares its parameters as a frozen dataclass of `setting` fields and nested settings.
+Names of nested ones are dotted: `actuator.dead_time`.
 """
 
 import dataclasses
@@ -16,7 +16,7 @@ T = TypeVar('T')
 
 @dataclasses.dataclass(frozen=True)
 class Described:
-    """What a field of a settings class promises."""
+    """Description, unit and range of a field of a settings class."""
 
     text: str
     unit: str
@@ -44,12 +44,12 @@ def setting(
     """One field of a settings class.
 
     Args:
-        default: value when nothing else is said; its type is the field's type.
+        default: value; its type is the type of the field.
         text: one phrase that describes it.
-        unit: SI unit, '' where it has none.
+        unit: SI unit, '' without one.
         low: smallest allowed number.
         high: largest allowed number.
-        choices: allowed words, for a text field.
+        choices: allowed values of a text field.
     """
     described = Described(text, unit, low, high, choices)
     return dataclasses.field(default=default, metadata={'described': described})
@@ -60,8 +60,8 @@ def nested(default: Any, unused: Mapping[str, str] | None = None) -> Any:
 
     Args:
         default: that object.
-        unused: its fields that the component does not read, each with what to do instead. They
-            are no parameters of the component, and keep their defaults.
+        unused: fields that the component does not read, each with the reason or an alternative.
+            They are not parameters of the component and keep their defaults.
     """
     return dataclasses.field(
         default_factory=lambda: default, metadata={'unused': dict(unused or {})}
@@ -85,7 +85,7 @@ def flatten(settings: Any, prefix: str = '') -> dict[str, tuple[Any, Described]]
 
 
 def unused_names(settings: Any) -> dict[str, str]:
-    """The dotted names that `nested` was told to leave out, with what to do instead."""
+    """Dotted names of the unused fields (see `nested`), with the reason or an alternative."""
     return {
         f'{field.name}.{name}': instead
         for field in dataclasses.fields(settings)
@@ -97,12 +97,12 @@ def reject_unknown(names: Iterable[str], settings: Any, owner: str = '') -> None
     """Checks that all dotted names are parameters of a settings object.
 
     Args:
-        names: to be checked.
+        names: to check.
         settings: the object.
-        owner: whose parameters they are, for the error; '' leaves it out.
+        owner: of the parameters, for the error message; '' leaves it out.
 
     Raises:
-        InputError: names the parameter, and those that exist or what to do instead.
+        InputError: names the parameter, and the known ones or the alternative.
     """
     known, instead = flatten(settings), unused_names(settings)
     of = f' of {owner}' if owner else ''

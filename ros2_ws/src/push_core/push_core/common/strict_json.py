@@ -1,4 +1,4 @@
-"""What `--json` prints: JSON that every parser takes, with null where a number does not exist."""
+"""Strict JSON for `--json`: NaN and infinities, which JSON lacks, become null."""
 
 import json
 import math
@@ -6,12 +6,12 @@ from typing import Any
 
 
 def json_text(value: Any) -> str:
-    """An object as JSON that ends its line; NaN and the infinities, which JSON lacks, as null."""
+    """The object as indented JSON with a final newline."""
     return json.dumps(finite(value), indent=2, allow_nan=False) + '\n'
 
 
 def finite(value: Any) -> Any:
-    """The same value with None in the place of every number that is not finite."""
+    """The value with None in place of every number that is not finite."""
     if isinstance(value, dict):
         return {name: finite(each) for name, each in value.items()}
     if isinstance(value, list | tuple):

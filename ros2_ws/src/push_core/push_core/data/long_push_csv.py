@@ -1,4 +1,4 @@
-"""The CSV form of long pushes: object pose and tip before and after, world frame, SI units."""
+"""CSV files of long pushes: object pose and tip before and after, world frame, SI units."""
 
 from pathlib import Path
 
@@ -14,13 +14,13 @@ COLUMNS = (
     *('x0_m', 'y0_m', 'theta0_rad', 'x1_m', 'y1_m', 'theta1_rad'),
     *('tip_x0_m', 'tip_y0_m', 'tip_x1_m', 'tip_y1_m'),
 )
-"""Of every file, in any order: object and tip before (0) and after (1) the push."""
+"""Object and tip before (0) and after (1) the push, in any order."""
 
 FARTHEST = 10.0
 """[m], [rad]; a file in millimetres or degrees lies beyond."""
 
 TOUCHING = 0.01
-"""Largest distance [m] between tip and square at the start; more is no push on a face."""
+"""Largest distance [m] between tip and face at the start."""
 
 
 def holds_long_pushes(path: Path) -> bool:
@@ -68,6 +68,6 @@ def _check_contact(table: CsvTable, pushes: LongPushes) -> None:
         beside = abs(pushes.slider.contact_offset(pose, tip)) - pushes.slider.side / 2.0
         if max(abs(gap), beside) > TOUCHING:
             raise InputError(
-                f'{table.place(row)}: the tip begins {1e3 * max(abs(gap), beside):.1f} mm away '
+                f'{table.place(row)}: the tip starts {1e3 * max(abs(gap), beside):.1f} mm away '
                 'from the face'
             )

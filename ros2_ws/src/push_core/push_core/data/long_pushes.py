@@ -1,4 +1,4 @@
-"""Long straight pushes of a square: where object and tip began, and where they came to."""
+"""Long straight pushes of a square: poses of object and tip before and after."""
 
 import math
 from dataclasses import dataclass
@@ -11,13 +11,13 @@ from push_core.geometry import Array, points_to_body, wrap_angle
 from push_core.physics import Slider
 
 FACE_MARGIN = 1e-3
-"""How far [m] beyond the end of the face a tip still counts as on it: a rounded corner and the
-noise of the poses."""
+"""Distance [m] beyond the end of the face within which a tip counts as on it: allows for a rounded
+corner and the noise of the poses."""
 
 
 @dataclass(frozen=True)
 class EndErrors:
-    """How far from the measured end something else ended.
+    """Errors of predicted end poses.
 
     Attributes:
         position: (n,) distances between the centres [m].
@@ -28,7 +28,7 @@ class EndErrors:
     heading: Array
 
     def of(self, chosen: NDArray[np.bool_]) -> dict[str, float | int | None]:
-        """The block that every command's JSON uses, of the chosen (n,) pushes."""
+        """The mean errors of the chosen (n,) pushes, as in the JSON of every command."""
         count = int(chosen.sum())
         return {
             'n': count,
@@ -39,7 +39,7 @@ class EndErrors:
 
 @dataclass(frozen=True)
 class LongPushes:
-    """n straight pushes, world frame; a square is turned such that its pushed face is x = p_x.
+    """n straight pushes, world frame. Each pose is turned so that the pushed face is x = p_x.
 
     Attributes:
         slider: the square and the tip.
@@ -59,7 +59,7 @@ class LongPushes:
     def on_any_face(
         cls, slider: Slider, start: Array, end: Array, tip_start: Array, tip_end: Array
     ) -> 'LongPushes':
-        """Pushes on whichever face the tip was at; turns each pose so that it is x = p_x."""
+        """Pushes on any face; turns each pose so that the pushed face is x = p_x."""
         x, y = points_to_body(start, tip_start).T
         quarter = np.round((np.arctan2(y, x) - math.pi) / (math.pi / 2.0)) * (math.pi / 2.0)
         turn = np.column_stack((np.zeros((len(start), 2)), quarter))
@@ -75,7 +75,7 @@ class LongPushes:
 
     @property
     def direction(self) -> Array:
-        """(n,) world directions [rad] in which the tip went."""
+        """(n,) directions of travel of the tip [rad], world frame."""
         travel = self.tip_end - self.tip_start
         return np.asarray(np.arctan2(travel[:, 1], travel[:, 0]))
 
@@ -86,12 +86,12 @@ class LongPushes:
 
     @cached_property
     def on_face(self) -> NDArray[np.bool_]:
-        """(n,) whether the tip was still on the face at the end; it began there."""
+        """(n,) whether the tip is on the face at the end; it starts there."""
         p_y = points_to_body(self.end, self.tip_end)[:, 1]
         return np.asarray(np.abs(p_y) <= self.slider.side / 2.0 + FACE_MARGIN)
 
     def errors(self, end: Array) -> EndErrors:
-        """Compares other end poses (n, 3) with the measured ones."""
+        """Errors of predicted end poses (n, 3)."""
         gap = end - self.end
         heading = np.array([abs(wrap_angle(angle)) for angle in gap[:, 2].tolist()])
         return EndErrors(np.asarray(np.hypot(gap[:, 0], gap[:, 1])), heading)

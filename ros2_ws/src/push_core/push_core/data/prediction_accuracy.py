@@ -1,4 +1,4 @@
-"""How well predicted displacements tell measured ones: RMSE, and NMSE in two frames."""
+"""Prediction error of displacements: RMSE, and NMSE in two frames."""
 
 import math
 from dataclasses import dataclass
@@ -23,8 +23,8 @@ class Accuracy:
     Attributes:
         n: pushes compared.
         rmse: (3,) root mean squared errors in the body frame [m, m, rad].
-        nmse_push_frame: (3,) mean squared errors over the variance of the measurement, with the
-            translation turned into the direction of the push; NaN where that variance is zero.
+        nmse_push_frame: (3,) mean squared errors over the variance of the measurements, with the
+            translation along and across the push direction; NaN where that variance is zero.
         nmse_body_frame: (3,) the same in the body frame.
     """
 
@@ -34,7 +34,7 @@ class Accuracy:
     nmse_body_frame: Array
 
     def as_json(self) -> dict[str, int | Figures]:
-        """The block of accuracy figures that every command's JSON uses."""
+        """The errors as in the JSON of every command."""
         rmse = self.rmse / READABLE
         return {
             'n': self.n,
@@ -58,7 +58,7 @@ def accuracy(predicted: Array, pushes: PushSet) -> Accuracy:
 
 
 def in_push_frame(displacement: Array, beta: Array) -> Array:
-    """(n, 3) displacements with their translation along and across the push direction.
+    """Displacements (n, 3) with their translation along and across the push direction.
 
     Args:
         displacement: (n, 3) in the body frame.
@@ -70,7 +70,7 @@ def in_push_frame(displacement: Array, beta: Array) -> Array:
 
 
 def per_output(values: Array) -> Figures:
-    """Three values by the name of their output; None for NaN, which JSON does not have."""
+    """Three values by the name of their output; None for NaN, which JSON lacks."""
     return {
         name: value if math.isfinite(value) else None
         for name, value in zip(OUTPUTS, values.tolist(), strict=True)
@@ -78,7 +78,7 @@ def per_output(values: Array) -> Figures:
 
 
 def with_mean(values: Array) -> Figures:
-    """The same with their mean."""
+    """Three values by the name of their output, and their mean."""
     mean = float(values.mean())
     return {**per_output(values), 'mean': mean if math.isfinite(mean) else None}
 
@@ -86,6 +86,6 @@ def with_mean(values: Array) -> Figures:
 def _nmse(error: Array, measured: Array) -> Array:
     spread = np.var(measured, axis=0)
     ratio = np.full(3, np.nan)
-    # one push, or pushes that all do the same, have no variance to compare with
+    # a single push, or equal pushes, have no variance
     np.divide(np.mean(error**2, axis=0), spread, out=ratio, where=spread > 0)
     return ratio

@@ -1,4 +1,4 @@
-"""The CSV form of a push set: one row a push, SI units; the only definition of its columns."""
+"""CSV files of push sets: one row per push, SI units."""
 
 import csv
 import io
@@ -32,7 +32,7 @@ def read_pushes(path: Path) -> PushSet:
 
 
 def write_pushes(path: Path, pushes: PushSet) -> None:
-    """Writes a push set so that reading it gives the same numbers; whole or not at all.
+    """Writes a push set atomically; reading it gives the same numbers bit for bit.
 
     Raises:
         InputError: the file cannot be written.

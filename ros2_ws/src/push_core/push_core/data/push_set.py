@@ -1,4 +1,4 @@
-"""A set of short straight pushes: where and how the object was pushed, and how far it moved."""
+"""A set of short straight pushes: contact offset, push direction, displacement of the object."""
 
 import hashlib
 import math
@@ -15,15 +15,15 @@ HALF_FACE = 0.045
 """Half the length of the pushed face [m]."""
 
 P_Y_LIMIT = HALF_FACE + 0.005
-"""Largest contact offset that anything asks about [m]: the face and a margin for its corner."""
+"""Largest contact offset of any push or query [m]: the face and a margin for its corner."""
 
 LARGEST_DISPLACEMENT = np.array([1.0, 1.0, math.pi])
-"""No push moves the object further [m, m, rad]; a file in millimetres or degrees does."""
+"""Larger displacements [m, m, rad] are refused: the file is in millimetres or degrees."""
 
 
 @dataclass(frozen=True)
 class PushSet:
-    """Pushes of one and the same distance, in the body frame at the start of each.
+    """Pushes of one distance, in the body frame at the start of each.
 
     Attributes:
         p_y: (n,) contact offsets along the pushed face [m].
@@ -76,7 +76,7 @@ class PushSet:
         )
 
     def joined(self, other: 'PushSet') -> 'PushSet':
-        """These pushes and then the others; named selections are dropped.
+        """These pushes followed by the others; named selections are dropped.
 
         Raises:
             InputError: the others cover another distance.
@@ -94,7 +94,7 @@ class PushSet:
         )
 
     def sha256(self) -> str:
-        """Hash of all values, whatever file they came from; the selections do not count."""
+        """Hash of all values; file names and selections do not enter."""
         digest = hashlib.sha256()
         for values in (self.p_y, self.beta, self.displacement, np.array([self.distance])):
             digest.update(np.ascontiguousarray(values, '<f8').tobytes())
@@ -121,14 +121,14 @@ def five_push_pattern(half_face: float) -> Array:
 
 
 def input_fault(p_y: Array, beta: Array) -> tuple[int, str] | None:
-    """The first push that no model can answer for.
+    """The first push that is out of the range of every model.
 
     Args:
         p_y: (n,) contact offsets [m].
         beta: (n,) push directions [rad].
 
     Returns:
-        Its row and what is wrong with it; None where all are fine.
+        Its row and a description of the fault; None if there is none.
     """
     # comparisons are written so that NaN fails them
     good = (np.abs(p_y) <= P_Y_LIMIT) & (beta > 0) & (beta < math.pi)
@@ -147,7 +147,7 @@ def _describe_input(p_y: float, beta: float) -> str:
 
 
 def push_fault(p_y: Array, beta: Array, displacement: Array) -> tuple[int, str] | None:
-    """The first push that no set may hold.
+    """The first push that is not valid.
 
     Args:
         p_y: (n,) contact offsets [m].
@@ -155,7 +155,7 @@ def push_fault(p_y: Array, beta: Array, displacement: Array) -> tuple[int, str] 
         displacement: (n, 3) motion of the object [m, m, rad].
 
     Returns:
-        Its row and what is wrong with it; None where all are fine.
+        Its row and a description of the fault; None if there is none.
     """
     return input_fault(p_y, beta) or _displacement_fault(displacement)
 
@@ -170,13 +170,13 @@ def _displacement_fault(displacement: Array) -> tuple[int, str] | None:
 
 
 def check_distance(distance: float) -> None:
-    """Refuses a travel of the pusher that is no length.
+    """Checks the travel of the pusher in one push.
 
     Raises:
-        InputError: not finite, not positive, or a metre and more.
+        InputError: it is not finite, not positive, or 1 m or more.
     """
     if not 0 < distance < 1:
-        raise InputError(f'a push of {distance:g} m is none: it must be between 0 and 1 m')
+        raise InputError(f'the distance of a push is {distance:g} m, must be between 0 and 1 m')
 
 
 def _frozen(values: ArrayLike) -> Array:

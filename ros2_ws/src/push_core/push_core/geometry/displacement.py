@@ -1,8 +1,8 @@
-"""Finite displacements and the twists behind them.
+"""Conversion between finite displacements and constant twists.
 
-A push that turns the object by theta moves it along an arc: seen from where it started, the
-displacement leans by theta / 2 against the direction in which the object set off. Both directions
-are to second order in theta, 0.1 % at the 7 degrees of the largest measured 4 mm push.
+A push that turns the object by theta moves it along an arc: the displacement is turned by
+theta / 2 against the initial direction of motion. Both functions are exact to second order in
+theta, which is 0.1 % at the 7 degrees of the largest measured 4 mm push.
 """
 
 import numpy as np
@@ -11,7 +11,7 @@ from push_core.geometry.frames import Array
 
 
 def twist_of(displacement: Array, jacobian: Array) -> tuple[Array, Array]:
-    """The constant twist behind displacements, times their duration.
+    """The constant twist that gives displacements, times their duration.
 
     Args:
         displacement: (n, 3) [m, m, rad] in the body frame at the start.

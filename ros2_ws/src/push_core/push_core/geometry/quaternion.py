@@ -1,8 +1,8 @@
-"""Yaw as a unit quaternion and back without loss.
+"""Yaw to unit quaternion and back without loss.
 
-Sines and arc tangents round, so a yaw would come out of a quaternion a few bits away. Yaws are
-therefore kept on a grid of 2^-40 rad (1e-12 rad): whether a pose crosses a network as a quaternion
-or is handed over directly, its reader gets the same number.
+Sine and arc tangent round, so the conversion alone changes the last bits of a yaw. Yaws are
+therefore rounded to a grid of 2^-40 rad (1e-12 rad): a pose has the same yaw whether it is sent as
+a quaternion or passed directly.
 """
 
 import math
@@ -12,7 +12,7 @@ _HALF_TURN = math.floor(math.pi * _STEPS_PER_RADIAN)
 
 
 def grid_yaw(yaw: float) -> float:
-    """The nearest yaw [rad] that a trip through a quaternion leaves as it is, in [-pi, pi]."""
+    """The yaw [rad] rounded to the grid, in [-pi, pi]."""
     steps = round(math.remainder(yaw, math.tau) * _STEPS_PER_RADIAN)
     return max(-_HALF_TURN, min(_HALF_TURN, steps)) / _STEPS_PER_RADIAN
 
@@ -23,5 +23,5 @@ def yaw_to_quaternion(yaw: float) -> tuple[float, float, float, float]:
 
 
 def quaternion_to_yaw(z: float, w: float) -> float:
-    """Yaw [rad] on the grid, of the quaternion's twist about z; a tilt (x, y) does not matter."""
+    """Yaw [rad] on the grid, of a quaternion with components z and w; the tilt is ignored."""
     return grid_yaw(2.0 * math.atan2(z, w))

@@ -21,7 +21,7 @@ _TIME_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class ActuatorSettings:
-    """How the tip follows its velocity commands."""
+    """Parameters of the response of the tip to velocity commands."""
 
     dead_time: float = setting(
         0.06, 'time until a command begins to act', unit='s', low=0.0, high=1.0
@@ -72,7 +72,7 @@ class Actuator:
         self._target = self._velocity = (0.0, 0.0)
 
     def command(self, velocity: Array, arrival: float) -> None:
-        """Accepts a velocity (2,) [m/s] that arrived at a time [s], not before the last one."""
+        """Adds a command (2,) [m/s] that arrived at a time [s], not before the previous one."""
         target = (float(velocity[0]), float(velocity[1]))
         acts_at = arrival + self.settings.dead_time
         self._queue.append((acts_at, _shortened(target, self.settings.speed_limit)))

@@ -1,4 +1,4 @@
-"""Ellipsoidal limit surface: which wrench moves a sliding object with which twist.
+"""Ellipsoidal limit surface: relation of friction wrench and twist of a sliding object.
 
 H(w) = 1/2 w^T diag(1/f^2, 1/f^2, 1/m^2) w, and the twist is along its gradient (Goyal et al. 1991;
 Hogan and Rodriguez 2016, eq. 3).
@@ -16,7 +16,7 @@ GRAVITY = 9.81
 
 
 def uniform_pressure_radius(side: float) -> float:
-    """Moment over force, c = m/f [m], of a square [m] that presses evenly on the table."""
+    """Moment over force, c = m/f [m], of a square of side [m] with uniform pressure."""
     return side * (math.sqrt(2.0) + math.log(1.0 + math.sqrt(2.0))) / 6.0
 
 

@@ -1,7 +1,7 @@
 """Quasi-static pushing through one point contact: the motion cone over a limit surface.
 
-Everything is per metre of pusher travel, so that it is a function of the contact offset p_y and
-the push direction beta alone: v = [sin(beta), cos(beta)] along the inward normal and the face.
+All motion is per metre of pusher travel, and so a function of the contact offset p_y and the push
+direction beta alone: v = [sin(beta), cos(beta)] along the inward normal and the face.
 Source: Mason 1986, Lynch et al. 1992; notation of Bauza, Hogan and Rodriguez 2018, section 3.
 """
 
@@ -16,7 +16,7 @@ from push_core.physics.slider import Slider
 
 
 class ContactMode(IntEnum):
-    """What the contact does; the sign is that of dp_y/dt."""
+    """Contact mode; the sign is that of dp_y/dt."""
 
     SLIDING_RIGHT = -1
     STICKING = 0
@@ -30,7 +30,7 @@ def contact_jacobian(p_x: float, p_y: float) -> Array:
 
 @dataclass(frozen=True)
 class MotionCone:
-    """Answers for pushes of a slider on its face x = p_x."""
+    """Motion of a slider that is pushed on its face x = p_x."""
 
     slider: Slider
 

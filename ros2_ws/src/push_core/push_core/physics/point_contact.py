@@ -1,8 +1,8 @@
-"""One point contact on a limit surface: mobility, motion cone, and the force that a push takes.
+"""One point contact on a limit surface: mobility, motion cone, contact force of a push.
 
-Written in the frame of the contact, whose x axis is the inward normal: the ellipsoid is round, so
-a contact counts by the parts of its position along the normal and along the tangent alone. Every
-function takes numbers as well as arrays. Source: Mason 1986, Lynch et al. 1992.
+In the frame of the contact, whose x axis is the inward normal. The ellipsoid is isotropic in the
+plane, so only the components of the contact position along normal and tangent enter. All functions
+take numbers and arrays. Source: Mason 1986, Lynch et al. 1992.
 """
 
 from typing import Any, TypeAlias, TypeVar
@@ -37,7 +37,7 @@ def cone_edge(matrix: Mobility, friction: Any) -> tuple[Any, Any]:
 def slip_sign(matrix: Mobility, friction: float, v_n: Any, v_t: Any) -> Any:
     """Sign of the tip's slip for a velocity into the object: 1, -1, or 0 where it sticks."""
     left, right = cone_edge(matrix, friction), cone_edge(matrix, -friction)
-    # an edge that leans backwards, with much friction, has no push into the face beyond it
+    # with high friction an edge may point backwards: no push into the face lies beyond it
     slides_left = (left[0] > 0.0) & (v_t * left[0] > left[1] * v_n)
     slides_right = (right[0] > 0.0) & (v_t * right[0] < right[1] * v_n)
     return slides_left * 1.0 - slides_right * 1.0

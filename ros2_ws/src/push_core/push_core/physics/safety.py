@@ -1,7 +1,8 @@
-"""The last limit on every command before it leaves: one pure function.
+"""Safety limits of every velocity command: one pure function.
 
-Finite, acceleration, speed with the direction kept, and the braking distance to the edge of the
-workspace. The workspace comes last: braking for it may exceed the acceleration limit.
+It checks for finite numbers, limits acceleration and speed (keeping the direction), and keeps the
+braking distance to the border of the workspace. The workspace comes last: braking for it may
+exceed the acceleration limit.
 """
 
 import math
@@ -27,7 +28,7 @@ LIMIT_NAMES = {
 
 @dataclass(frozen=True)
 class SafetyLimits:
-    """What a command may ask of the tip."""
+    """Limits of a velocity command."""
 
     speed: float = setting(0.25, 'largest commanded speed', unit='m/s', low=1e-3, high=2.0)
     acceleration: float = setting(
@@ -56,14 +57,14 @@ def limit(
     """The nearest allowed command.
 
     Args:
-        velocity: wanted tip velocity (2,) [m/s], world frame.
+        velocity: requested tip velocity (2,) [m/s], world frame.
         previous: the command sent before it (2,) [m/s].
         position: tip position (2,) [m], world frame.
-        limits: what is allowed.
+        limits: to apply.
         period: time [s] between two commands.
 
     Returns:
-        The velocity (2,) to send, and the bits of the limits that changed it.
+        The velocity (2,) to send, and the bits (see `LIMIT_NAMES`) of the limits that changed it.
     """
     inputs = (*velocity, *previous, *position)
     if not all(math.isfinite(value) for value in inputs):
@@ -92,7 +93,7 @@ def _limit_speed(velocity: Array, speed: float) -> tuple[Array, int]:
 def _limit_workspace(velocity: Array, position: Array, limits: SafetyLimits) -> tuple[Array, int]:
     """Keeps each axis slow enough to stop, v <= sqrt(2 a d), after the reaction time.
 
-    The commands already under way may all be of full speed, whatever this one asks for.
+    The commands already sent may all have full speed, whatever this one is.
     """
     allowed = np.array(velocity)
     blind = limits.speed * limits.reaction_time

@@ -1,4 +1,4 @@
-"""The pushed square, the tip that pushes it, and where they touch."""
+"""The pushed square and the round tip: geometry and friction."""
 
 from dataclasses import dataclass
 
@@ -12,10 +12,10 @@ from push_core.geometry import Array, to_body, to_world
 class Slider:
     """Geometry and friction of the square and of the round tip that pushes its face x = -side/2.
 
-    Friction and support radius are those of an ellipsoidal limit surface. No object has one: the
-    radius that fits the measured pushes best is 29 mm where they hardly turn the square, 39 mm
-    where they turn it most and 34.8 mm over all. The default fits those that turn it by less than
-    6.7 rad for each metre, the curvature of the 8-track.
+    Friction and support radius are those of an ellipsoidal limit surface, an approximation: the
+    radius that fits the measured pushes best is 29 mm for those with the least rotation, 39 mm for
+    those with the most, and 34.8 mm for all. The default fits pushes that turn the square by less
+    than 6.7 rad per metre, the curvature of the 8-track.
     """
 
     side: float = setting(0.09, 'side of the square', unit='m', low=0.01, high=1.0)

@@ -11,7 +11,7 @@ from push_msgs.msg import ControllerState
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
-from push_node.realtime import settled
+from push_node.realtime import enter_realtime
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -178,7 +178,7 @@ class MpcNode(Node):  # type: ignore[misc]
         answer.message = self._obstacle()
         answer.success = not answer.message
         if answer.success:
-            self._scheduling = self._scheduling or settled(self._settings.mode)
+            self._scheduling = self._scheduling or enter_realtime(self._settings.mode)
             self._controller.arm()
             self._poses.restart()
             answer.message = f'armed; {self._scheduling}'

@@ -9,7 +9,7 @@ from push_msgs.srv import Perturb, Reset
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
-from push_node.realtime import settled
+from push_node.realtime import enter_realtime
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
@@ -53,7 +53,7 @@ class SimNode(Node):  # type: ignore[misc]
         self.create_timer(_SCENE_PERIOD, self._publish_scene)
         self.create_timer(_HEALTH_PERIOD, self._report)
         profile, mode = self._settings.profile, self._settings.mode
-        self.get_logger().info(f'{profile}, {mode}; {settled(mode)}')
+        self.get_logger().info(f'{profile}, {mode}; {enter_realtime(mode)}')
 
     def destroy_node(self) -> None:
         """Also closes the plant."""
