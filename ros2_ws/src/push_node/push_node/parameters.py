@@ -14,7 +14,8 @@ def declared(node: Node, defaults: T) -> T:
     """Declares every value of a settings object as a parameter; returns the settings in effect.
 
     Args:
-        node: the node that owns the parameters.
+        node: owns the parameters; made with `automatically_declare_parameters_from_overrides`, or
+            else unknown overrides pass unnoticed.
         defaults: settings made with `push_core.common.settings`.
 
     Returns:
@@ -23,9 +24,9 @@ def declared(node: Node, defaults: T) -> T:
     Raises:
         InputError: an unknown parameter, a wrong type or a value out of range.
     """
-    # rclpy ignores overrides of parameters that the node does not have
-    given = (name for name in node._parameter_overrides if not name.startswith(_NOT_OURS))
-    reject_unknown(given, defaults, node.get_name())
+    given = node.get_parameters_by_prefix('')
+    ours = (name for name in given if not name.startswith(_NOT_OURS))
+    reject_unknown(ours, defaults, node.get_name())
     changes = {
         name: _declare(node, name, value, described)
         for name, (value, described) in flatten(defaults).items()
@@ -35,8 +36,7 @@ def declared(node: Node, defaults: T) -> T:
 
 def override(node: Node, name: str, default: T) -> T:
     """The override of one parameter before it is declared; `default` if there is none."""
-    found = node._parameter_overrides.get(name)
-    return default if found is None else found.value
+    return node.get_parameter(name).value if node.has_parameter(name) else default
 
 
 def _declare(node: Node, name: str, value: Any, described: Described) -> Any:
@@ -46,4 +46,7 @@ def _declare(node: Node, name: str, value: Any, described: Described) -> Any:
         read_only=True,
         dynamic_typing=True,
     )
-    return node.declare_parameter(name, value, descriptor).value
+    if not node.has_parameter(name):
+        return node.declare_parameter(name, value, descriptor).value
+    node.set_descriptor(name, descriptor)
+    return node.get_parameter(name).value

@@ -58,7 +58,12 @@ def made_node(context: Context) -> Iterator[NodeMaker]:
     ) -> Node:
         arguments = [part for override in overrides for part in ('-p', override)]
         arguments += ['--params-file', str(file)] if file else []
-        node = Node(name, cli_args=['--ros-args', *arguments], namespace=namespace)
+        node = Node(
+            name,
+            cli_args=['--ros-args', *arguments],
+            namespace=namespace,
+            automatically_declare_parameters_from_overrides=True,
+        )
         nodes.append(node)
         return node
 

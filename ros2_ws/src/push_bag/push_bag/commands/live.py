@@ -54,7 +54,7 @@ class Live(Node):  # type: ignore[misc]
     """
 
     def __init__(self) -> None:
-        super().__init__('live')
+        super().__init__('live', automatically_declare_parameters_from_overrides=True)
         settings = declared(self, LiveSettings())
         own = {self.resolve_topic_name(topic.name): topic for topic in TOPICS}
         offers = {name: topic.qos for name, topic in own.items()}

@@ -40,7 +40,7 @@ class Recorder(Node):  # type: ignore[misc]
     """
 
     def __init__(self) -> None:
-        super().__init__('recorder')
+        super().__init__('recorder', automatically_declare_parameters_from_overrides=True)
         settings = declared(self, RecorderSettings())
         offers = {self.resolve_topic_name(topic.name): topic.qos for topic in TOPICS}
         others = {full_name(self, name) for name in split_list(settings.topics)}

@@ -2,7 +2,7 @@
 
 from push_core.physics.actuator import ACTUATORS, Actuator, ActuatorSettings, Pair
 from push_core.physics.limit_surface import GRAVITY, LimitSurface, uniform_pressure_radius
-from push_core.physics.motion_cone import ContactMode, MotionCone, contact_jacobian
+from push_core.physics.motion_cone import GRAZING, ContactMode, MotionCone, contact_jacobian
 from push_core.physics.point_contact import (
     mobility,
     sliding_force,
@@ -16,6 +16,7 @@ from push_core.physics.slider import Slider
 __all__ = [
     'ACTUATORS',
     'GRAVITY',
+    'GRAZING',
     'Actuator',
     'ActuatorSettings',
     'ContactMode',

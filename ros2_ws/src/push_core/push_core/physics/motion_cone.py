@@ -14,6 +14,9 @@ from push_core.geometry import Array
 from push_core.physics import point_contact
 from push_core.physics.slider import Slider
 
+GRAZING = 0.01
+"""Smallest angle [rad] between face and push direction that models are asked for."""
+
 
 class ContactMode(IntEnum):
     """Contact mode; the sign is that of dp_y/dt."""

@@ -10,7 +10,7 @@ import numpy as np
 from push_core.common import RunError
 from push_core.data import check_distance
 from push_core.geometry import Array, displacement_of
-from push_core.physics import MotionCone, Slider
+from push_core.physics import GRAZING, MotionCone, Slider
 
 from push_gp.models.model import ModelInfo
 
@@ -19,9 +19,6 @@ ANALYTICAL = 'analytical'
 
 NOMINAL_DISTANCE = 0.004
 """Travel of the measured pushes [m]: 0.2 s at 20 mm/s."""
-
-_GRAZING = 0.01
-"""Smallest angle [rad] between face and push direction."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +56,7 @@ class AnalyticalModel:
             training_set_hash='',
             distance=self.distance,
             p_y_domain=(-half, half),
-            beta_domain=(_GRAZING, math.pi - _GRAZING),
+            beta_domain=(GRAZING, math.pi - GRAZING),
             lengthscales=np.zeros((3, 2)),
             signal_std=np.zeros(3),
             noise_std=np.zeros(3),

@@ -92,8 +92,10 @@ class GpModel:
         """
         trust = len(self.pushes) / (len(self.pushes) + NORMAL_PRIOR)
         errors = [process.left_out() for process in self.processes]
-        found = [np.quantile(np.abs(error) / np.sqrt(spread), 0.95) for error, spread in errors]
-        return NORMAL_95 + trust * (np.array(found) - NORMAL_95)
+        quantiles = [
+            np.quantile(np.abs(error) / np.sqrt(spread), 0.95) for error, spread in errors
+        ]
+        return NORMAL_95 + trust * (np.array(quantiles) - NORMAL_95)
 
     def extended(self, pushes: PushSet) -> 'GpModel':
         """The model with more pushes at the same hyperparameters.

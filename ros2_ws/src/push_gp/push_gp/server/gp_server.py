@@ -35,7 +35,7 @@ class GpServer(Node):  # type: ignore[misc]
         Raises:
             InputError: a parameter or the model file is wrong.
         """
-        super().__init__('gp_server')
+        super().__init__('gp_server', automatically_declare_parameters_from_overrides=True)
         settings = declared(self, ServerSettings())
         model = model_named(settings.model, settings.slider, settings.distance)
         self._server = ModelServer(model, settings.max_points)

@@ -39,7 +39,7 @@ class MpcNode(Node):  # type: ignore[misc]
     """Topics, services and timers around one `Controller`."""
 
     def __init__(self) -> None:
-        super().__init__('mpc_node')
+        super().__init__('mpc_node', automatically_declare_parameters_from_overrides=True)
         bundles = override(self, 'profile', 'irb120'), override(self, 'preset', 'tuned')
         self._settings = declared(self, mpc_settings(*bundles))
         self._controller = Controller(

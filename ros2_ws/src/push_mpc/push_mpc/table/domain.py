@@ -4,14 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from push_core.geometry import Array
+from push_core.physics import GRAZING
 
 from push_mpc.table.surrogate import Grid
 
 SMALLEST = np.array([1e-3, 1e-2])
 """Smallest half width [m, rad] of a domain; a single push has none of its own."""
-
-GRAZING = 0.01
-"""Angle [rad] to the face below which the tip does not push."""
 
 
 @dataclass(frozen=True)

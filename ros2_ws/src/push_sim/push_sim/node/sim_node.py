@@ -38,7 +38,7 @@ class SimNode(Node):  # type: ignore[misc]
     """Publishes measured poses and executes velocity commands."""
 
     def __init__(self) -> None:
-        super().__init__('sim_node')
+        super().__init__('sim_node', automatically_declare_parameters_from_overrides=True)
         self._settings: NodeSettings = declared(
             self, node_settings(override(self, 'profile', 'irb120'))
         )
