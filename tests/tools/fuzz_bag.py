@@ -67,7 +67,8 @@ DAMAGES: tuple[Callable[[bytearray, random.Random], bytearray], ...] = (
 
 def replayed(path: Path) -> int:
     """Reads a bag as a replay does: the topics, then the records in order."""
-    return sum(1 for _ in in_order(BagReader(path).records(survey(path, None).topics)))
+    bag = survey(path, None)
+    return sum(1 for _ in in_order(BagReader(path).records(bag.topics), bag.disorder_ns))
 
 
 READERS: dict[str, Callable[[Path], object]] = {

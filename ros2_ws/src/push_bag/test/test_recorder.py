@@ -121,7 +121,7 @@ def test_every_message_is_recorded_and_a_signal_finishes_the_bag(cell, start, tm
     assert reader.facts == {'profile': 'irb120', 'seed': '3'}
     assert reader.attachments == {'facts.json': facts.read_bytes()}
     assert reader.finished
-    assert set(reader.contents.middleware_lost) >= set(counts)
+    assert set(reader.middleware_lost) >= set(counts)
     assert (folder / 'metadata.yaml').exists()
 
 

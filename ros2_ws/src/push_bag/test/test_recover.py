@@ -3,10 +3,10 @@
 import random
 
 import pytest
-from push_bag.file.mcap_stream import chunk_data, chunk_records, top_records
 from push_bag.file.reader import BagReader
 from push_bag.repair import recover as command
 from push_bag.repair.recover import recover
+from push_bag.stream import ByteFile, chunk, chunk_records, spans
 from push_core.common.errors import InputError
 
 
@@ -18,13 +18,13 @@ def content(perfect):
 @pytest.fixture(scope='module')
 def chunks(perfect):
     """Offsets of start and end of each chunk, and its number of messages."""
-    path = BagReader(perfect).path
     found = []
-    with path.open('rb') as stream:
-        for record in top_records(stream, path.stat().st_size):
-            if record.opcode == 6:
-                count = sum(1 for each in chunk_records(chunk_data(record.body)) if len(each) == 5)
-                found.append((stream.tell() - len(record.body) - 9, stream.tell(), count))
+    with ByteFile(BagReader(perfect).path) as file:
+        for span in spans(file):
+            if span.opcode == 6:
+                records = chunk_records(chunk(file, span))
+                count = sum(1 for each in records if len(each) == 5)
+                found.append((span.begin - 9, span.end, count))
     return found
 
 

@@ -1,14 +1,19 @@
 """`push_bag info RUN`: prints the contents of a bag."""
 
 import argparse
+import itertools
+import os
 import shutil
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from push_core.common import InputError, Parser, plain_table, run_command, write_atomically
+from push_core.common import InputError, Parser, plain_table, run_command
 
-from push_bag.file import BagReader, Traffic, lost_text
+from push_bag.file import BagReader, Traffic, TrafficLog, counted, lost_text
+from push_bag.stream import Attachment
+
+Key = tuple[str, str]  # name and type of a topic
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -22,14 +27,19 @@ def bag_text(reader: BagReader) -> str:
     Raises:
         InputError: the bag is not readable.
     """
-    traffic: dict[str, Traffic] = {}
+    logs: dict[Key, TrafficLog] = {}
     for record in reader.records():
-        traffic.setdefault(record.topic.name, Traffic()).add(record.sequence, record.log_ns)
-    lines = [f'{reader.path}: {_duration(traffic):.2f} s, {_ending(reader)}', '']
-    lines += _topic_lines(reader, traffic)
-    lines += ['', lost_text(traffic), '']
+        key = record.topic.name, record.topic.type_name
+        logs.setdefault(key, TrafficLog()).add(record.sequence, record.log_ns)
+    traffic = counted(logs)
+    lines = [f'{reader.path}: {_duration(traffic):.2f} s, {_ending(reader)}']
+    if len(reader.paths) > 1:
+        names = ', '.join(path.name for path in reader.paths)
+        lines.append(f'{len(reader.paths)} files: {names}')
+    lines += ['', *_topic_lines(reader, traffic)]
+    lines += ['', lost_text(_named(traffic)), '']
     lines += [f'{name}: {value}' for name, value in sorted(reader.facts.items())]
-    lines += [f'attached: {name}, {len(data)} B' for name, data in reader.attachments.items()]
+    lines += [f'attached: {each.name}, {each.size} B' for each in reader.attached]
     return '\n'.join(lines) + '\n'
 
 
@@ -46,25 +56,54 @@ def extract(reader: BagReader, folder: Path) -> None:
     except OSError as error:
         raise InputError(f'cannot create {folder}: {error.strerror}') from error
     try:
-        for name, data in reader.attachments.items():
-            write_atomically(folder / Path(name).name, data)
+        for each in reader.attached:
+            _write_attached(_free_path(folder, each.name), each)
     except InputError:
         shutil.rmtree(folder)
         raise
 
 
-def _topic_lines(reader: BagReader, traffic: dict[str, Traffic]) -> list[str]:
+def _free_path(folder: Path, name: str) -> Path:
+    """A path in the folder that is not taken: attachments may have equal names."""
+    path = folder / Path(name).name
+    numbers = itertools.count(2)
+    while path.exists():
+        path = folder / f'{Path(name).stem}_{next(numbers)}{Path(name).suffix}'
+    return path
+
+
+def _write_attached(path: Path, attached: Attachment) -> None:
+    try:
+        with path.open('wb') as stream:
+            for block in attached.blocks():
+                stream.write(block)
+            stream.flush()
+            os.fsync(stream.fileno())
+    except OSError as error:
+        raise InputError(f'cannot write {path}: {error.strerror}') from error
+
+
+def _named(traffic: Mapping[Key, Traffic]) -> dict[str, Traffic]:
+    """The traffic by name of the topic; with the type where a topic has several."""
+    names = [name for name, _ in traffic]
+    return {
+        name if names.count(name) == 1 else f'{name} ({kind})': each
+        for (name, kind), each in traffic.items()
+    }
+
+
+def _topic_lines(reader: BagReader, traffic: Mapping[Key, Traffic]) -> list[str]:
     rows = [('topic', 'type', 'received', 'lost', 'rate [1/s]', 'longest gap [ms]')]
-    for name, topic in sorted(reader.topics.items()):
-        seen = traffic.get(name, Traffic())
-        lost = str(seen.lost) if seen.numbered or not seen.received else '?'
+    for name, kind in sorted({(each.name, each.type_name) for each in reader.all_topics}):
+        seen = traffic.get((name, kind), Traffic())
+        lost = str(seen.lost) if seen.lost_is_known else '?'
         gap = f'{seen.longest_ns * 1e-6:.1f}'
-        rows.append((name, topic.type_name, str(seen.received), lost, f'{seen.rate:.1f}', gap))
+        rows.append((name, kind or '-', str(seen.received), lost, f'{seen.rate:.1f}', gap))
     return plain_table(rows, left=2)
 
 
-def _duration(traffic: dict[str, Traffic]) -> float:
-    seen = traffic.values()
+def _duration(traffic: Mapping[Key, Traffic]) -> float:
+    seen = [each for each in traffic.values() if each.received]
     first = min((each.first_ns for each in seen), default=0)
     return (max((each.last_ns for each in seen), default=0) - first) * 1e-9
 

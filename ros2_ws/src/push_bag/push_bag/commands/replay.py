@@ -5,7 +5,7 @@ import itertools
 import math
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
 
 import rclpy
@@ -105,21 +105,41 @@ def _work(arguments: argparse.Namespace) -> int:
 
 def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
     publishers = Publishers(node, bag.topics.values(), arguments.clock)
+    _check_left_out(publishers, bag, arguments)
     time.sleep(arguments.delay)
     publishers.wait_until_matched(MATCHING_TIMEOUT)
     if not publishers.have_subscribers:
         sys.stderr.write('replay: no topic has a subscriber; --delay S waits longer\n')
     for _ in itertools.count() if arguments.loop else range(1):
-        records = _records(arguments, bag)
+        records = _records(arguments, bag, publishers.names)
         count = play(records, publishers.publish, arguments.rate, bag.seconds - arguments.start)
-        sys.stdout.write(f'{count} messages on {len(bag.topics)} topics replayed\n')
+        sys.stdout.write(f'{count} messages on {len(publishers.names)} topics replayed\n')
         sys.stdout.flush()
 
 
-def _records(arguments: argparse.Namespace, bag: Survey) -> Iterator[Record]:
+def _check_left_out(publishers: Publishers, bag: Survey, arguments: argparse.Namespace) -> None:
+    """Names the topics that are not replayed.
+
+    Raises:
+        InputError: they were asked for, or there is no other.
+    """
+    left_out = [f'{name}: {reason}' for name, reason in publishers.left_out.items()]
+    if left_out and (arguments.topics or not publishers.names):
+        raise InputError(left_out[0])
+    left_out += [
+        f'{name}: its messages of type {kind} (it has those of {bag.topics[name].type_name}, too)'
+        for name, kind in sorted(bag.further_types)
+    ]
+    for each in left_out:
+        sys.stderr.write(f'replay: left out {each}\n')
+
+
+def _records(
+    arguments: argparse.Namespace, bag: Survey, names: Collection[str]
+) -> Iterator[Record]:
     reader = BagReader(arguments.run)
     begin = bag.first_ns + round(arguments.start * 1e9)
-    return from_time(begin, in_order(reader.records(bag.topics)))
+    return from_time(begin, in_order(reader.records(names), bag.disorder_ns))
 
 
 if __name__ == '__main__':

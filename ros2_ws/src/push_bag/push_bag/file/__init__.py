@@ -2,18 +2,10 @@
 
 from push_bag.file.atomic_bag import atomic_bag
 from push_bag.file.bag_contents import BagContents
+from push_bag.file.bag_files import bag_files
 from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
 from push_bag.file.cdr_columns import Columns, columns
 from push_bag.file.cdr_layout import Leaf, leaves
-from push_bag.file.mcap_stream import (
-    MAGIC,
-    DamagedError,
-    RawMessage,
-    RawRecord,
-    chunk_data,
-    chunk_records,
-    message,
-)
 from push_bag.file.message_types import (
     Definition,
     installed_definition,
@@ -21,34 +13,30 @@ from push_bag.file.message_types import (
     schema_text,
 )
 from push_bag.file.qos_text import qos_profile, qos_text
-from push_bag.file.reader import BagReader, Record, bag_file
-from push_bag.file.topic_registry import Topic
-from push_bag.file.traffic import Traffic, lost_text
+from push_bag.file.reader import BagReader, Record
+from push_bag.file.topic_registry import Schema, Topic
+from push_bag.file.traffic import Traffic, TrafficLog, counted, lost_text
 
 __all__ = [
     'COUNTS_RECORD',
-    'MAGIC',
     'BagContents',
     'BagReader',
     'BagWriter',
     'Columns',
-    'DamagedError',
     'Definition',
     'Leaf',
-    'RawMessage',
-    'RawRecord',
     'Record',
+    'Schema',
     'Topic',
     'Traffic',
+    'TrafficLog',
     'atomic_bag',
-    'bag_file',
-    'chunk_data',
-    'chunk_records',
+    'bag_files',
     'columns',
+    'counted',
     'installed_definition',
     'leaves',
     'lost_text',
-    'message',
     'message_class',
     'qos_profile',
     'qos_text',

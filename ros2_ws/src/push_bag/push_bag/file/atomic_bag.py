@@ -12,9 +12,12 @@ from push_bag.file.bag_writer import BagWriter
 
 @contextmanager
 def atomic_bag(
-    folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
+    folder: Path,
+    facts: Mapping[str, str],
+    attachments: Mapping[str, bytes],
+    profile: str = 'ros2',
 ) -> Iterator[BagWriter]:
-    """A `BagWriter` whose new folder is removed if an error is raised.
+    """A `BagWriter` with the same arguments, whose new folder is removed if an error is raised.
 
     Raises:
         InputError: the folder exists already or cannot be created.
@@ -22,7 +25,7 @@ def atomic_bag(
     """
     was_there = folder.exists()
     try:
-        with BagWriter(folder, facts, attachments) as writer:
+        with BagWriter(folder, facts, attachments, profile) as writer:
             yield writer
     except BaseException as error:
         if not was_there:

@@ -1,6 +1,7 @@
 """Writes a run to an MCAP bag that rosbag2 and Foxglove can read."""
 
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
@@ -12,6 +13,7 @@ from push_core.common import InputError, RunError
 from push_bag.file.message_types import Definition, installed_definition
 from push_bag.file.rosbag2_metadata import Span, write_metadata
 from push_bag.file.topic_registry import Topic, TopicRegistry
+from push_bag.stream import Attachment, write_attachment
 
 CHUNK_BYTES = 64 * 1024  # bounds what a kill can lose and how long a write can block
 FACTS_RECORD = 'run'
@@ -32,7 +34,11 @@ class BagWriter:
     """
 
     def __init__(
-        self, folder: Path, facts: Mapping[str, str], attachments: Mapping[str, bytes]
+        self,
+        folder: Path,
+        facts: Mapping[str, str],
+        attachments: Mapping[str, bytes],
+        profile: str = 'ros2',
     ) -> None:
         """Creates the folder and the file.
 
@@ -40,6 +46,7 @@ class BagWriter:
             folder: of the run; must not exist yet.
             facts: of the run (profile, seed, mode, versions …).
             attachments: contents of files by name.
+            profile: of the MCAP file.
 
         Raises:
             InputError: the folder exists already or cannot be created.
@@ -48,13 +55,15 @@ class BagWriter:
         self.folder = _new_folder(folder)
         self.path = self.folder / f'{self.folder.name}_0.mcap'
         self.counts: dict[str, int] = {}
+        self._channels: dict[str, int] = {}
+        self._written = Counter[int]()  # messages by channel
         self._facts = dict(facts)
         self._first_ns: int | None = None
         self._last_ns = 0
         self._stream: IO[bytes] | None = _new_file(self.path)
         self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
         self._registry = TopicRegistry(self._writer)
-        self._attempt(lambda: self._write_head(attachments))
+        self._attempt(lambda: self._write_head(attachments, profile))
 
     @property
     def is_open(self) -> bool:
@@ -79,9 +88,23 @@ class BagWriter:
         if name in self.counts:
             raise InputError(f'topic {name} is already in {self.path}')
         definition = definition or installed_definition(type_name)
-        topic = Topic(name, type_name, qos_yaml, definition.type_hash, definition.schema)
-        self._attempt(lambda: self._registry.add(topic))
-        self.counts[name] = 0
+        self._channels[name] = self.add_channel(
+            Topic.of_ros(name, type_name, qos_yaml, definition)
+        )
+
+    def add_channel(self, topic: Topic) -> int:
+        """Declares a channel; a topic can have several, of different types or publishers.
+
+        Returns:
+            Its number, for `write_to`.
+
+        Raises:
+            RunError: the file cannot be written.
+        """
+        channels: list[int] = []
+        self._attempt(lambda: channels.append(self._registry.add(topic)))
+        self.counts.setdefault(topic.name, 0)
+        return channels[0]
 
     def write(
         self, name: str, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
@@ -98,10 +121,20 @@ class BagWriter:
         Raises:
             RunError: the file cannot be written, and is closed.
         """
-        channel = self._registry.channel(name)
+        self.write_to(self._channels[name], data, log_ns, publish_ns, sequence)
+
+    def write_to(
+        self, channel: int, data: bytes, log_ns: int, publish_ns: int, sequence: int = 0
+    ) -> None:
+        """Appends one serialized message to a channel; see `write`.
+
+        Raises:
+            RunError: the file cannot be written, and is closed.
+        """
         number = sequence & LARGEST_SEQUENCE
         self._attempt(lambda: self._writer.add_message(channel, log_ns, data, publish_ns, number))
-        self.counts[name] += 1
+        self._written[channel] += 1
+        self.counts[self._registry.topic(channel).name] += 1
         self._first_ns = log_ns if self._first_ns is None else min(log_ns, self._first_ns)
         self._last_ns = max(log_ns, self._last_ns)
 
@@ -115,7 +148,17 @@ class BagWriter:
         Raises:
             RunError: the file cannot be written, and is closed.
         """
+        if name == FACTS_RECORD:
+            self._facts = {**facts, **self._facts}
         self._attempt(lambda: self._writer.add_metadata(name, dict(facts)))
+
+    def add_attachment(self, attached: Attachment) -> None:
+        """Copies an attached file of another bag, piece by piece.
+
+        Raises:
+            RunError: the file cannot be written, and is closed.
+        """
+        self._attempt(lambda: self._copy_attachment(attached))
 
     def flush(self) -> None:
         """Ends the current chunk and hands it to the operating system.
@@ -157,8 +200,17 @@ class BagWriter:
                 f'{self.path}: {reason}; recording stopped, what was recorded stays readable'
             ) from error
 
-    def _write_head(self, attachments: Mapping[str, bytes]) -> None:
-        self._writer.start(profile='ros2', library='push_bag')
+    def _copy_attachment(self, attached: Attachment) -> None:
+        """Writes the record here because the library's writer takes all data at once."""
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        stream: Any = self._stream
+        index = write_attachment(stream, attached)
+        own = vars(self._writer)
+        own['_Writer__attachment_indexes'].append(index)
+        own['_Writer__statistics'].attachment_count += 1
+
+    def _write_head(self, attachments: Mapping[str, bytes], profile: str) -> None:
+        self._writer.start(profile=profile, library='push_bag')
         self._writer.add_metadata(FACTS_RECORD, self._facts)
         now = time.time_ns()
         for name, data in attachments.items():
@@ -173,7 +225,7 @@ class BagWriter:
             write_metadata(
                 self.folder,
                 self.path.name,
-                self._registry.summaries(self.counts),
+                self._registry.summaries(self._written),
                 span,
                 self._facts,
             )

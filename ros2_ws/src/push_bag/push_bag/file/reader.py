@@ -2,24 +2,30 @@
 
 from collections.abc import Collection, Iterator
 from pathlib import Path
-from typing import IO, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from mcap.opcode import Opcode
 from push_core.common import InputError
 from rclpy.serialization import deserialize_message
 
 from push_bag.file.bag_contents import BagContents
-from push_bag.file.mcap_stream import (
+from push_bag.file.bag_files import bag_files
+from push_bag.file.message_types import message_class
+from push_bag.file.topic_registry import Topic
+from push_bag.stream import (
+    Attachment,
+    ByteFile,
     CutShortError,
     DamagedError,
     RawMessage,
-    chunk_data,
+    RawRecord,
+    attachment,
+    chunk,
     chunk_records,
     message,
-    top_records,
+    raw_record,
+    spans,
 )
-from push_bag.file.message_types import message_class
-from push_bag.file.topic_registry import Topic
 
 
 class Record(NamedTuple):
@@ -47,16 +53,15 @@ class Record(NamedTuple):
 
 
 class BagReader:
-    """One bag; each call of `records` reads it from the beginning.
+    """One bag of one or more files; each call of `records` reads it from the beginning.
 
     Attributes:
-        path: the MCAP file.
-        contents: what the bag states about itself. Facts and attachments are complete after the
-            first message, topics and `finished` after the last one.
+        path: the MCAP file, or the folder of a bag that was split into several.
+        paths: the MCAP files in their order.
     """
 
     def __init__(self, path: Path) -> None:
-        """Finds the MCAP file; opens it only when it is read.
+        """Finds the MCAP files; opens them only when they are read.
 
         Args:
             path: a run folder or an MCAP file.
@@ -64,89 +69,97 @@ class BagReader:
         Raises:
             InputError: there is no bag.
         """
-        self.path = bag_file(path)
-        self.contents = BagContents()
+        self.paths = bag_files(path)
+        self.path = self.paths[0] if len(self.paths) == 1 else path
+        self._contents: dict[Path, BagContents] = {}
+
+    @property
+    def all_topics(self) -> list[Topic]:
+        """The topics of all channels; known after the last message."""
+        return [topic for each in self._contents.values() for topic in each.topics.values()]
 
     @property
     def topics(self) -> dict[str, Topic]:
-        """The topics by name."""
-        return {topic.name: topic for topic in self.contents.topics.values()}
+        """The topics by name; of several types of one topic the last one."""
+        return {topic.name: topic for topic in self.all_topics}
 
     @property
     def facts(self) -> dict[str, str]:
-        """The facts of the run."""
-        return self.contents.facts
+        """The facts of the run; known after the first message."""
+        facts: dict[str, str] = {}
+        for each in self._contents.values():
+            facts = {**each.facts, **facts}
+        return facts
+
+    @property
+    def attached(self) -> list[Attachment]:
+        """The attached files, not read yet."""
+        return [each for part in self._contents.values() for each in part.attachments]
 
     @property
     def attachments(self) -> dict[str, bytes]:
-        """Attached files by name."""
-        return self.contents.attachments
+        """The data of the attached files by name."""
+        return {each.name: each.data for each in self.attached}
+
+    @property
+    def middleware_lost(self) -> dict[str, int]:
+        """Messages by topic that the middleware reported as lost."""
+        lost: dict[str, int] = {}
+        for each in self._contents.values():
+            for topic, count in each.middleware_lost.items():
+                lost[topic] = lost.get(topic, 0) + count
+        return lost
 
     @property
     def finished(self) -> bool:
-        """Whether the file has its footer; False if the recording was cut short."""
-        return self.contents.finished
+        """Whether every file has its footer; False if the recording was cut short."""
+        contents = self._contents.values()
+        return len(contents) == len(self.paths) and all(each.finished for each in contents)
 
     def records(self, names: Collection[str] | None = None) -> Iterator[Record]:
-        """All messages in the order of the file; holds one chunk in memory at a time.
+        """All messages in the order of the files; holds a few MB in memory at a time.
 
         Args:
             names: full names of the topics to read; None for all.
 
         Raises:
-            InputError: the file is empty, not a bag, or damaged before its end.
+            InputError: a file is empty, not a bag, or damaged before its end.
         """
-        topics = self.contents.topics
-        with self.path.open('rb') as stream:
-            for raw in self._unpacked(stream):
-                topic = topics.get(raw.channel)
+        for path in self.paths:
+            contents = self._contents[path] = BagContents()
+            for raw in _messages(path, contents):
+                topic = contents.topics.get(raw.channel)
                 if topic is None:
-                    raise InputError(f'{self.path} is damaged: a message has an unknown topic')
+                    raise InputError(f'{path} is damaged: a message has an unknown topic')
                 if names is None or topic.name in names:
                     yield Record(topic, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
 
-    def _unpacked(self, stream: IO[bytes]) -> Iterator[RawMessage]:
-        try:
-            for record in top_records(stream, self.path.stat().st_size):
-                if record.opcode == Opcode.CHUNK:
-                    yield from self._messages(record.body)
-                elif record.opcode == Opcode.MESSAGE:
-                    yield message(record.body)
+
+def _messages(path: Path, contents: BagContents) -> Iterator[RawMessage]:
+    """The messages of a file; all else goes to its contents."""
+    try:
+        with ByteFile(path) as file:
+            for record in _records(file, contents):
+                if isinstance(record, RawMessage):
+                    yield record
                 else:
-                    self.contents.add(record)
-        except CutShortError:
-            if not self.contents.topics:
-                raise InputError(f'{self.path} ends before its first message') from None
-        except DamagedError as error:
-            raise InputError(
-                f'{self.path} is no bag or is damaged: {error}; '
-                '`push_bag recover` saves the intact part'
-            ) from None
-
-    def _messages(self, chunk: bytes) -> Iterator[RawMessage]:
-        for record in chunk_records(chunk_data(chunk)):
-            if isinstance(record, RawMessage):
-                yield record
-            else:
-                self.contents.add(record)
+                    contents.add(record)
+    except CutShortError:
+        if not contents.topics:
+            raise InputError(f'{path} ends before its first message') from None
+    except DamagedError as error:
+        raise InputError(
+            f'{path} is no bag or is damaged: {error}; `push_bag recover` saves the intact part'
+        ) from None
 
 
-def bag_file(path: Path) -> Path:
-    """The MCAP file of a run.
-
-    Args:
-        path: run folder or MCAP file.
-
-    Raises:
-        InputError: there is none, or more than one.
-    """
-    if path.is_file():
-        return path
-    if not path.is_dir():
-        raise InputError(f'{path} does not exist; name a run folder or an MCAP file')
-    bags = sorted(each for each in path.iterdir() if each.suffix == '.mcap')
-    if not bags:
-        raise InputError(f'{path} holds no MCAP file; name a run folder or an MCAP file')
-    if len(bags) > 1:
-        raise InputError(f'{path} holds {len(bags)} MCAP files; name the one to read')
-    return bags[0]
+def _records(file: ByteFile, contents: BagContents) -> Iterator[RawMessage | RawRecord]:
+    for span in spans(file):
+        if span.opcode == Opcode.CHUNK:
+            yield from chunk_records(chunk(file, span))
+        elif span.opcode == Opcode.MESSAGE:
+            yield message(raw_record(file, span).body)
+        elif span.opcode == Opcode.ATTACHMENT:
+            contents.attachments.append(attachment(file, span))
+        elif contents.reads(span.opcode) and span.opcode != Opcode.STATISTICS:
+            yield raw_record(file, span)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import yaml
 from push_core.common import write_atomically
 
 from push_bag.file.yaml_text import from_yaml, to_yaml
@@ -23,6 +24,7 @@ class TopicSummary:
         type_name: in three parts.
         qos: rosbag2's YAML list of profiles.
         type_hash: `RIHS01_…`.
+        encoding: of the messages, such as `cdr`.
         count: messages in the bag.
     """
 
@@ -30,6 +32,7 @@ class TopicSummary:
     type_name: str
     qos: str
     type_hash: str
+    encoding: str
     count: int
 
 
@@ -93,9 +96,18 @@ def _topic(topic: TopicSummary) -> dict[str, Any]:
         'topic_metadata': {
             'name': topic.name,
             'type': topic.type_name,
-            'serialization_format': 'cdr',
-            'offered_qos_profiles': from_yaml(topic.qos) or [],
+            'serialization_format': topic.encoding,
+            'offered_qos_profiles': _profiles(topic.qos),
             'type_description_hash': topic.type_hash,
         },
         'message_count': topic.count,
     }
+
+
+def _profiles(qos: str) -> list[Any]:
+    """The profiles of a topic; none where a recovered bag's text is damaged."""
+    try:
+        profiles = from_yaml(qos)
+    except yaml.YAMLError:
+        return []
+    return profiles if isinstance(profiles, list) else []

@@ -2,35 +2,31 @@
 
 import argparse
 import contextlib
-import mmap
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from mcap.opcode import Opcode
 from push_core.common import InputError, Parser, run_command
 
-from push_bag.file import (
-    COUNTS_RECORD,
-    BagContents,
-    BagWriter,
+from push_bag.file import BagContents, BagWriter, Topic, atomic_bag, bag_files
+from push_bag.repair.recovered import Recovered
+from push_bag.repair.salvage import Damage, Part, PrivateRecord, parts_of
+from push_bag.stream import (
+    Attachment,
+    ByteFile,
+    Chunk,
     DamagedError,
-    Definition,
     RawMessage,
     RawRecord,
-    Topic,
-    atomic_bag,
-    bag_file,
     chunk_records,
     message,
-    qos_profile,
 )
-from push_bag.repair.recovered import Recovered
-from push_bag.repair.salvage import Damage, IntactChunk, parts_of
 
 RECOVERY_RECORD = 'recovery'  # saved and missing messages, written last
 EPILOG = """
-OUT becomes a run folder with one finished bag: every intact chunk of BROKEN, facts, attachments.
+OUT becomes a run folder with one finished bag: every intact chunk of BROKEN, its metadata and its
+attachments, as they were; the files of a split bag become one.
 Prints how many messages and seconds are missing, from sequence numbers and times.
 """
 
@@ -54,94 +50,130 @@ def recover(broken: Path, folder: Path) -> Recovered:
         InputError: there is no bag, no intact chunk in it, or the folder exists already.
         RunError: the new bag cannot be written.
     """
-    path = bag_file(broken)
-    with _mapped(path) as file:
-        contents = _contents(file)
-        if not contents.topics:
-            raise InputError(f'{path} holds nothing that can be recovered')
-        facts = {**contents.facts, 'recovered_from': path.name, 'recovered_bag': _state(contents)}
-        with atomic_bag(folder, facts, contents.attachments) as writer:
-            counts = _copied(file, contents, writer)
-            if contents.counts:
-                writer.add_facts(COUNTS_RECORD, contents.counts)
-            writer.add_facts(RECOVERY_RECORD, counts.facts())
-            return counts
+    paths = bag_files(broken)
+    contents = [_contents(path) for path in paths]
+    if not any(each.topics for each in contents):
+        raise InputError(f'{paths[0] if len(paths) == 1 else broken} {_nothing(paths)}')
+    names = ', '.join(path.name for path in paths)
+    facts = {'recovered_from': names, 'recovered_bag': _state(contents)}
+    profile = next((each.profile for each in contents if each.profile), '')
+    with atomic_bag(folder, facts, {}, profile) as writer:
+        _copy_facts(contents, writer)
+        counts = Recovered(contents)
+        channels = _Channels(writer)
+        for path, each in zip(paths, contents, strict=True):
+            _copy_messages(path, channels.of(each), writer, counts)
+        writer.add_facts(RECOVERY_RECORD, counts.facts())
+        return counts
 
 
-def _state(contents: BagContents) -> str:
-    return 'came to its end' if contents.finished else 'was cut short'
+def _nothing(paths: Sequence[Path]) -> str:
+    empty = not any(path.stat().st_size for path in paths)
+    return 'is empty' if empty else 'holds nothing that can be recovered'
 
 
-def _contents(file: mmap.mmap) -> BagContents:
+def _state(contents: Sequence[BagContents]) -> str:
+    return 'came to its end' if all(each.finished for each in contents) else 'was cut short'
+
+
+def _contents(path: Path) -> BagContents:
     """Topics, facts and attachments of all intact parts.
 
     Topics from chunks take precedence: chunks have checksums, the records of the summary do not.
     """
     contents, unverified = BagContents(), []
-    for part in parts_of(file):
-        if isinstance(part, RawRecord) and part.opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
-            unverified.append(part)
-        else:
-            _read(contents, part)
-    for part in unverified:
-        _read(contents, part)
+    with ByteFile(path) as file:
+        for part in parts_of(file):
+            if isinstance(part, RawRecord) and part.opcode in (Opcode.SCHEMA, Opcode.CHANNEL):
+                unverified.append(part)
+            elif isinstance(part, Attachment):
+                contents.attachments.append(part)
+            else:
+                _read(contents, part)
+        for record in unverified:
+            _read(contents, record)
     return contents
 
 
-def _read(contents: BagContents, part: IntactChunk | RawRecord | Damage) -> None:
-    for record in _records(part):
-        if isinstance(record, RawRecord):
-            with contextlib.suppress(DamagedError):
-                contents.add(record)
-
-
-def _copied(file: mmap.mmap, contents: BagContents, writer: BagWriter) -> Recovered:
-    """Copies all messages of known topics."""
-    counts = Recovered(contents)
-    for each in contents.topics.values():
-        _add(writer, each)
-    for part in parts_of(file):
-        if isinstance(part, Damage):
-            counts.add_damage(part.length)
-        for raw in _records(part):
-            topic = contents.topics.get(raw.channel) if isinstance(raw, RawMessage) else None
-            if isinstance(raw, RawMessage) and topic is not None:
-                writer.write(topic.name, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
-                counts.add(topic.name, raw)
-    return counts
-
-
-def _records(part: IntactChunk | RawRecord | Damage) -> Iterator[RawMessage | RawRecord]:
-    """The records in a part of the file; stops where the part is damaged."""
+def _read(contents: BagContents, part: Part) -> None:
     with contextlib.suppress(DamagedError):
-        if isinstance(part, IntactChunk):
-            yield from chunk_records(part.data)
-        elif isinstance(part, RawRecord):
-            yield message(part.body) if part.opcode == Opcode.MESSAGE else part
+        for record in _records(part):
+            if isinstance(record, RawRecord):
+                with contextlib.suppress(DamagedError):
+                    contents.add(record)
 
 
-def _add(writer: BagWriter, topic: Topic) -> None:
-    if topic.name not in writer.counts:
-        definition = Definition(topic.schema, topic.type_hash)
-        writer.add_topic(topic.name, topic.type_name, _readable(topic.qos), definition)
+def _copy_facts(contents: Sequence[BagContents], writer: BagWriter) -> None:
+    for each in contents:
+        for name, values in each.metadata:
+            writer.add_facts(name, values)
+        for attached in each.attachments:
+            writer.add_attachment(attached)
 
 
-def _readable(qos: str) -> str:
-    """The QoS text; empty if it is damaged."""
-    try:
-        qos_profile(qos)
-    except InputError:
-        return ''
-    return qos
+class _Channels:
+    """The channels of the new bag; a channel that each file of a split bag repeats is one."""
+
+    def __init__(self, writer: BagWriter) -> None:
+        self._writer = writer
+        self._added: list[tuple[Topic, int]] = []
+
+    def of(self, contents: BagContents) -> dict[int, tuple[Topic, int]]:
+        """Topic and number in the new bag of each channel of a file."""
+        free = list(self._added)
+        channels: dict[int, tuple[Topic, int]] = {}
+        for number, topic in contents.topics.items():
+            same = next((each for each in free if each[0] == topic), None)
+            if same is None:
+                same = topic, self._writer.add_channel(topic)
+                self._added.append(same)
+            else:
+                free.remove(same)
+            channels[number] = same
+        return channels
 
 
-@contextlib.contextmanager
-def _mapped(path: Path) -> Iterator[mmap.mmap]:
-    with path.open('rb') as stream:
-        if not path.stat().st_size:
-            raise InputError(f'{path} is empty')
-        with mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as file:
-            yield file
+def _copy_messages(
+    path: Path, channels: Mapping[int, tuple[Topic, int]], writer: BagWriter, counts: Recovered
+) -> None:
+    with ByteFile(path) as file:
+        for part in parts_of(file):
+            if isinstance(part, Damage):
+                counts.add_damage(part.length)
+            counts.private += isinstance(part, PrivateRecord)
+            try:
+                for raw in _records(part):
+                    if isinstance(raw, RawMessage):
+                        _copy(raw, channels, writer, counts)
+            except DamagedError:
+                # a chunk without a checksum, whose records do not fit together
+                counts.add_damage(part.size if isinstance(part, Chunk) else 0)
+
+
+def _copy(
+    raw: RawMessage,
+    channels: Mapping[int, tuple[Topic, int]],
+    writer: BagWriter,
+    counts: Recovered,
+) -> None:
+    if raw.channel not in channels:
+        counts.unknown += 1
+        return
+    topic, channel = channels[raw.channel]
+    writer.write_to(channel, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
+    counts.add(topic.name, raw)
+
+
+def _records(part: Part) -> Iterator[RawMessage | RawRecord]:
+    """The records in a part of the file.
+
+    Raises:
+        DamagedError: a record in it is damaged.
+    """
+    if isinstance(part, Chunk):
+        yield from chunk_records(part)
+    elif isinstance(part, RawRecord):
+        yield message(part.body) if part.opcode == Opcode.MESSAGE else part
 
 
 def _parser() -> Parser:

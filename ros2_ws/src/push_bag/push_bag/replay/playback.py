@@ -16,16 +16,21 @@ from tqdm import tqdm
 
 from push_bag.file import Record, Topic, message_class, qos_profile
 
-REORDER_NS = 1_000_000_000  # the recorder polls topic by topic, so log times are not sorted
 MATCHING_PERIOD = 0.02  # [s]
 
 
-def in_order(records: Iterable[Record]) -> Iterator[Record]:
-    """The records sorted by log time; reads ahead by REORDER_NS."""
+def in_order(records: Iterable[Record], disorder_ns: int) -> Iterator[Record]:
+    """The records sorted by log time.
+
+    Args:
+        records: in the order of the file.
+        disorder_ns: how much earlier a record may be than one before it [ns]; so far is read
+            ahead.
+    """
     waiting: list[tuple[int, int, Record]] = []
     for number, record in enumerate(records):
         heapq.heappush(waiting, (record.log_ns, number, record))
-        while waiting[0][0] < record.log_ns - REORDER_NS:
+        while waiting[0][0] < record.log_ns - disorder_ns:
             yield heapq.heappop(waiting)[2]
     while waiting:
         yield heapq.heappop(waiting)[2]
@@ -70,10 +75,10 @@ def play(
     Returns:
         Number of records published.
     """
-    count, start, first_ns = 0, clock(), 0
+    count, start, first_ns = 0, clock(), None
     with tqdm(total=round(seconds, 2), unit='s', desc='replaying', disable=None) as bar:
         for record in records:
-            first_ns = first_ns or record.log_ns
+            first_ns = record.log_ns if first_ns is None else first_ns
             recorded = (record.log_ns - first_ns) * 1e-9
             if (wait := start + recorded / rate - clock()) > 0:
                 sleep(wait)
@@ -84,7 +89,11 @@ def play(
 
 
 class Publishers:
-    """Publishes serialized records with the types and QoS profiles of the bag."""
+    """Publishes serialized records with the types and QoS profiles of the bag.
+
+    Attributes:
+        left_out: reasons by topic, for topics that cannot be published.
+    """
 
     def __init__(self, node: Node, topics: Iterable[Topic], with_clock: bool = False) -> None:
         """Creates a publisher for each topic.
@@ -93,12 +102,13 @@ class Publishers:
             node: to publish with.
             topics: of the bag.
             with_clock: whether to publish each record's log time on /clock, unless the bag has it.
-
-        Raises:
-            InputError: a type is not installed, or a name or a profile is not valid.
         """
         self._node = node
-        self._publishers = {topic.name: _publisher(node, topic) for topic in topics}
+        self._publishers: dict[str, Any] = {}
+        self._types: dict[str, str] = {}
+        self.left_out: dict[str, str] = {}
+        for topic in topics:
+            self._add(topic)
         needs_clock = with_clock and CLOCK.name not in self._publishers
         self._clock = CLOCK.publisher(node) if needs_clock else None
 
@@ -112,18 +122,34 @@ class Publishers:
             time.sleep(MATCHING_PERIOD)
 
     @property
+    def names(self) -> set[str]:
+        """Names of the topics that are published."""
+        return set(self._publishers)
+
+    @property
     def have_subscribers(self) -> bool:
         """Whether any of the topics has a subscriber."""
         return any(each.get_subscription_count() for each in self._publishers.values())
 
     def publish(self, record: Record) -> None:
-        """Publishes one record, after its time on /clock."""
+        """Publishes one record, after its time on /clock; not one of another type of the topic."""
+        if record.topic.type_name != self._types[record.topic.name]:
+            return
         if self._clock is not None:
             self._clock.publish(Clock(clock=to_stamp(record.log_ns)))
         self._publishers[record.topic.name].publish(record.data)
 
+    def _add(self, topic: Topic) -> None:
+        try:
+            self._publishers[topic.name] = _publisher(self._node, topic)
+            self._types[topic.name] = topic.type_name
+        except InputError as error:
+            self.left_out[topic.name] = str(error)
+
 
 def _publisher(node: Node, topic: Topic) -> Any:
+    if topic.encoding != 'cdr':
+        raise InputError(f'its messages are {topic.encoding or "of no encoding"}, not cdr')
     kind, profile = message_class(topic.type_name), qos_profile(topic.qos)
     try:
         return node.create_publisher(kind, topic.name, profile)

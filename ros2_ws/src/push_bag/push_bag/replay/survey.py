@@ -18,11 +18,16 @@ class Survey:
         topics: selected topics with messages, by full name.
         first_ns: earliest log time of any message in the bag [ns].
         last_ns: latest log time on the selected topics [ns].
+        disorder_ns: how much earlier a message's log time is than that of one before it in the
+            file, at most [ns].
+        further_types: name and type of topics that have another type in `topics`, too.
     """
 
     topics: Mapping[str, Topic]
     first_ns: int
     last_ns: int
+    disorder_ns: int
+    further_types: frozenset[tuple[str, str]] = frozenset()
 
     @property
     def seconds(self) -> float:
@@ -42,7 +47,10 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
     """
     reader = BagReader(path)
     spans: dict[str, tuple[int, int]] = {}
+    latest = disorder = 0
     for record in reader.records():
+        latest = max(latest, record.log_ns)
+        disorder = max(disorder, latest - record.log_ns)
         first, last = spans.get(record.topic.name, (record.log_ns, record.log_ns))
         spans[record.topic.name] = min(first, record.log_ns), max(last, record.log_ns)
     topics = _selected({name: reader.topics[name] for name in spans}, names)
@@ -52,7 +60,9 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
             f'{reader.path} holds no messages' + (' of these topics' if names else '')
         )
     begin = min(first for first, _ in spans.values())
-    return Survey(topics, begin, max(last for _, last in seen))
+    kinds = {(each.name, each.type_name) for each in reader.all_topics if each.name in topics}
+    kinds -= {(name, topic.type_name) for name, topic in topics.items()}
+    return Survey(topics, begin, max(last for _, last in seen), disorder, frozenset(kinds))
 
 
 def _selected(topics: Mapping[str, Topic], names: Sequence[str] | None) -> dict[str, Topic]:

@@ -15,6 +15,8 @@ from push_bag.file import Columns
 from push_bag.run.series import Floats, ModelFacts, PerturbationEvent, Reference
 
 STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
+UNIT_TOLERANCE = 0.01  # of the squared norm of a quaternion, as in tf2
+UPRIGHT = 0.5  # z^2 + w^2 of a quaternion that tilts by a right angle
 # fields of the topics that are decoded by columns
 POSE_FIELDS = (
     *STAMP,
@@ -23,6 +25,7 @@ POSE_FIELDS = (
     'pose.orientation.z',
     'pose.orientation.w',
 )
+ORIENTED_POSE_FIELDS = (*POSE_FIELDS, 'pose.orientation.x', 'pose.orientation.y')
 TWIST_FIELDS = (*STAMP, 'twist.linear.x', 'twist.linear.y')
 TRUTH_FIELDS = (*STAMP, 'pose')
 SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited')
@@ -49,6 +52,20 @@ def planar_poses(columns: Columns) -> Floats:
     turns = zip(columns['pose.orientation.z'], columns['pose.orientation.w'], strict=True)
     yaw = [quaternion_to_yaw(z, w) for z, w in turns]
     return np.column_stack([columns['pose.position.x'], columns['pose.position.y'], yaw])
+
+
+def measured_poses(columns: Columns) -> Floats:
+    """X [m], y [m] and heading [rad] (n, 3) of poses.
+
+    The heading is NaN where the orientation is no unit quaternion, as tf2 defines it, or tilts the
+    object by more than a right angle.
+    """
+    poses = planar_poses(columns)
+    x, y, z, w = (columns[f'pose.orientation.{axis}'] for axis in 'xyzw')
+    upright = z**2 + w**2
+    is_rotation = (np.abs(x**2 + y**2 + upright - 1.0) <= UNIT_TOLERANCE) & (upright >= UPRIGHT)
+    poses[~is_rotation, 2] = np.nan
+    return poses
 
 
 def positions(columns: Columns) -> Floats:

@@ -82,8 +82,9 @@ class RecordedRun:
             table = tables.get(short_name(record.topic.name))
             if table is not None:
                 table.add(record)
-        rows = {name: table.in_file_order() for name, table in tables.items()}
+        rows = {name: table.in_log_order() for name, table in tables.items()}
         self._states = rows.pop(STATE)
+        self._names = [self._names[row] for row in tables[STATE].log_order.tolist()]
         self._rows = rows
         self._by_stamp = {
             name: ByStamp(each.stamp.tolist(), each.published.tolist())

@@ -119,7 +119,9 @@ class RunSeries:
         facts: of the run, as recorded.
         finished: whether the bag has its footer.
         traffic: message counts by topic.
-        object: pose (n, 3) of the square [m, m, rad].
+        types: names of the message types by topic.
+        object: pose (n, 3) of the square [m, m, rad]; the heading is NaN where the orientation
+            is no rotation about z.
         truth: true pose (n, 3) of the square [m, m, rad]; empty where none was recorded.
         pusher: position (n, 2) of the tip [m].
         commands: velocity (n, 2) in the world frame [m/s].
@@ -135,6 +137,7 @@ class RunSeries:
     facts: Mapping[str, str]
     finished: bool
     traffic: Mapping[str, Traffic]
+    types: Mapping[str, str]
     object: Stamped
     truth: Stamped
     pusher: Stamped

@@ -1,11 +1,13 @@
 """The messages of one topic as a table that grows record by record."""
 
+from array import array
 from collections.abc import Callable, Collection
 
 import numpy as np
+from numpy.typing import NDArray
 from push_core.common import InputError
 
-from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves
+from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves, schema_text
 from push_bag.run.conversions import stamps
 from push_bag.run.series import Floats, Stamped
 
@@ -32,6 +34,7 @@ class TopicTable:
         self._layout: list[Leaf] = []
         self._messages: list[bytes] = []
         self._published: list[int] = []
+        self._logged = array('Q')
 
     def add(self, record: Record) -> None:
         """Adds one message.
@@ -39,10 +42,11 @@ class TopicTable:
         Raises:
             InputError: a message is not of its topic's type.
         """
-        if record.topic is not self._topic:
+        if record.topic is not self._topic and record.topic != self._topic:
             self._begin(record.topic)
         self._messages.append(record.data)
         self._published.append(record.publish_ns)
+        self._logged.append(record.log_ns)
         if len(self._messages) >= BATCH:
             self._decode()
 
@@ -52,12 +56,17 @@ class TopicTable:
         Raises:
             InputError: a message is not of its topic's type.
         """
-        rows = self.in_file_order()
+        rows = self.in_log_order()
         _, first = np.unique(rows.stamp, return_index=True)
         return Stamped(rows.stamp[first], rows.published[first], rows.values[first])
 
-    def in_file_order(self) -> Stamped:
-        """All messages in the order of the file.
+    @property
+    def log_order(self) -> NDArray[np.intp]:
+        """Indices (n,) that sort the messages of the file by log time."""
+        return np.argsort(np.frombuffer(self._logged, np.uint64), kind='stable')
+
+    def in_log_order(self) -> Stamped:
+        """All messages in the order of their log times.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -67,12 +76,13 @@ class TopicTable:
             np.concatenate([getattr(block, name) for block in self._blocks])
             for name in ('stamp', 'published', 'values')
         )
-        return Stamped(stamp, published, values)
+        order = self.log_order
+        return Stamped(stamp[order], published[order], values[order])
 
     def _begin(self, topic: Topic) -> None:
         self._decode()
         self._topic = topic
-        self._layout = leaves(topic.schema, topic.type_name.split('/')[0])
+        self._layout = leaves(_ros_schema(topic), topic.type_name.split('/')[0])
         known = {leaf.name for leaf in self._layout}
         missing = [name for name in self._fields if name not in known]
         if missing:
@@ -89,6 +99,14 @@ class TopicTable:
         published = np.array(self._published, np.uint64).astype(np.int64)
         self._blocks.append(Stamped(stamps(fields), published, self._values(fields)))
         self._messages, self._published = [], []
+
+
+def _ros_schema(topic: Topic) -> str:
+    """The type's `ros2msg` schema; that of the installed type if the bag has another or none."""
+    stated = topic.definition
+    if stated is not None and stated.encoding == 'ros2msg' and stated.data.strip():
+        return topic.schema
+    return schema_text(topic.type_name)
 
 
 def _no_rows(width: int) -> Stamped:
