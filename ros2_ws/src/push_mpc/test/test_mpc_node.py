@@ -176,7 +176,10 @@ def test_it_does_not_start_without_poses(cell, started) -> None:
     cell.announce_model()
     cell.call_until('start', lambda answer: 'model' not in answer.message)
     answer = cell.call('start')
-    assert (answer.success, answer.message) == (False, 'waiting for poses')
+    assert (answer.success, answer.message) == (
+        False,
+        'waiting for poses: nothing arrives on object_pose',
+    )
 
 
 def test_it_does_not_listen_to_the_ground_truth(cell, started) -> None:

@@ -1,6 +1,7 @@
 """Where the object will be when a command acts: delay predictor and disturbance estimate."""
 
 from push_mpc.estimate.disturbance import DisturbanceEstimator
+from push_mpc.estimate.pose_gate import PoseGate
 from push_mpc.estimate.predictor import Predictor
 
-__all__ = ['DisturbanceEstimator', 'Predictor']
+__all__ = ['DisturbanceEstimator', 'PoseGate', 'Predictor']

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
+from push_core.geometry import Array
 from push_msgs.msg import ControllerState
 from push_node import interface
 from push_node.diagnostics import Reporter
@@ -18,9 +19,12 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
-from push_mpc.loop import Controller, Mode, Tick
+from push_mpc.estimate import PoseGate
+from push_mpc.loop import Controller, Mode, Tick, start_fault
 from push_mpc.node import conversions
+from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.mode_log import ModeLog
 from push_mpc.node.model_client import ModelClient
 from push_mpc.node.pose_pair import PosePair
 from push_mpc.node.preparation import Preparation
@@ -32,6 +36,7 @@ from push_mpc.table import Tabulated
 
 FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
+GRAPH_PERIOD = 0.2  # [s] between two looks for other commanders
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
 
@@ -42,11 +47,17 @@ class MpcNode(Node):  # type: ignore[misc]
         super().__init__('mpc_node', automatically_declare_parameters_from_overrides=True)
         bundles = override(self, 'profile', 'irb120'), override(self, 'preset', 'tuned')
         self._settings = declared(self, mpc_settings(*bundles))
+        self._lockstep = self._settings.mode == 'lockstep'
         self._controller = Controller(
             self._settings, self._settings.slider, planned(self._settings)
         )
-        lockstep = self._settings.mode == 'lockstep'
-        self._poses = PosePair(self, lockstep, self._tick, self._repeat)
+        self._gate = PoseGate(self._settings.poses, self._settings.limits)
+        tolerance = None if self._lockstep else self._settings.poses.pair_tolerance
+        self._poses = PosePair(
+            self, self._gate, tolerance, self._tick, self._refused, self._repeat
+        )
+        self._graph = GraphWatch(self)
+        self._mode_log = ModeLog()
         self._tick_count = self._extrapolations = 0
         self._table: Tabulated | None = None
         self._scheduling = ''
@@ -90,16 +101,15 @@ class MpcNode(Node):  # type: ignore[misc]
     def _start_timers(self) -> None:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
-        if self._settings.mode == 'realtime':
+        self.create_timer(GRAPH_PERIOD, self._watch_graph, clock=steady)
+        if not self._lockstep:
             self.create_timer(self._watchdog.period, self._watch, clock=steady)
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
         arrived = time.perf_counter()
         self._take_model()
-        object_pose = conversions.planar_pose(self._poses.object_pose)
-        tip = conversions.position(self._poses.tip)
-        tick = self._controller.step(object_pose, tip, exposure, now)
+        tick = self._controller.step(*self._measured(), exposure, now)
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
@@ -107,10 +117,27 @@ class MpcNode(Node):  # type: ignore[misc]
         self._extrapolations += self._extrapolates(tick)
         self._controller.prepare_next()
 
+    def _measured(self) -> tuple[Array, Array]:
+        """Newest object pose (3,) and tip position (2,)."""
+        poses = self._poses
+        return conversions.planar_pose(poses.object_pose), conversions.position(poses.tip)
+
     def _send(self, tick: Tick, stamp: int) -> None:
         conversions.set_stamp(self._command, stamp)
         conversions.fill_command(self._command, tick.velocity)
         self._commands.publish(self._command)
+
+    def _refused(self, reason: str) -> None:
+        """Stops on a refused pose in lockstep, where the plant waits for an answer."""
+        if self._lockstep and self._controller.mode in _MOVING:
+            self._halt(reason)
+
+    def _watch_graph(self) -> None:
+        """Stops when another node commands the tip as well; writes what the loop did not log."""
+        rivals = self._graph.warning()
+        if rivals and self._controller.mode in _MOVING:
+            self._halt(rivals)
+        self._mode_log.write(self.get_logger())
 
     def _repeat(self) -> None:
         """Sends the last command again: the simulator did not receive it."""
@@ -120,6 +147,7 @@ class MpcNode(Node):  # type: ignore[misc]
     def _publish_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
         conversions.set_stamp(self._state, stamp)
         conversions.fill_state(self._state, tick)
+        self._mode_log.note(tick.mode, self._controller.stop_reason)
         self._state.tick = self._tick_count
         self._state.tick_ms = tick_ms
         self._state.stop_reason = self._controller.stop_reason
@@ -153,7 +181,8 @@ class MpcNode(Node):  # type: ignore[misc]
         if slept or self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
             return
         if age > self._settings.pose_loss:
-            self._halt(f'no pose for {1e3 * age:.0f} ms')
+            why = self._poses.explanation()
+            self._halt(f'no pose for {1e3 * age:.0f} ms' + (f': {why}' if why else ''))
         else:
             stamp, now = self._poses.now()
             self._publish(self._controller.hold(now), stamp)
@@ -162,7 +191,7 @@ class MpcNode(Node):  # type: ignore[misc]
         """Stops at once, without waiting for a pose."""
         self._controller.stop(reason)
         self._publish(Tick(Mode.STOPPED, np.zeros(2)), self._poses.now()[0])
-        self.get_logger().error(f'stopped: {reason}')
+        self._mode_log.write(self.get_logger())
 
     def _publish(self, tick: Tick, stamp: int) -> None:
         """Publishes a tick that answers no pose."""
@@ -204,18 +233,32 @@ class MpcNode(Node):  # type: ignore[misc]
             return f'waiting for the model: {self._model.problem}'
         if self._settings.require_recorder and not self._recorder.is_recording:
             return 'waiting for the recorder'
-        if not self._poses.seen:
-            return 'waiting for poses'
-        return ''
+        if not self._poses.fresh:
+            why = self._poses.explanation()
+            self._poses.restart()
+            return f'waiting for poses: {why}' if why else 'waiting for poses'
+        rivals = self._graph.warning()
+        if rivals:
+            return f'{rivals}; stop it first'
+        object_pose, tip = self._measured()
+        start = self._controller.plan.state[0]
+        fault = start_fault(self._settings.slider, start, object_pose, tip)
+        return f'{fault}; put it there, in simulation with {interface.RESET.name}' if fault else ''
+
+    def _warning(self) -> str:
+        """What is wrong while the controller is not stopped, empty if nothing is."""
+        poses = '' if self._poses.fresh else self._poses.explanation()
+        return self._model.problem or poses or self._graph.warning()
 
     def _report(self) -> None:
         stopped = self._controller.mode == Mode.STOPPED
-        reason = self._controller.stop_reason if stopped else self._model.problem
+        reason = self._controller.stop_reason if stopped else self._warning()
         values = {
             'model': self._controller.model_id,
             'table': str(self._table or ''),
             'ticks': str(self._tick_count),
             'outside_training_data': str(self._extrapolations),
+            **{f'refused_{kind}': str(n) for kind, n in sorted(self._gate.counts.items())},
         }
         self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
 

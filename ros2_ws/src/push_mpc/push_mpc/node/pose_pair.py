@@ -1,72 +1,123 @@
-"""Pairs the poses of object and tip that carry the same stamp."""
+"""Pairs the poses of object and tip that were taken at the same time."""
 
 import time
 from collections.abc import Callable
 
 from geometry_msgs.msg import PoseStamped
 from push_node import interface
+from push_node.endpoints import GraphTopic
+from push_node.qos import HEARD_POSE
 from push_node.stamps import to_nanoseconds, to_seconds
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 
+from push_mpc.estimate import PoseGate
+
+_NEVER = -(2**62)  # [ns]
+_FRESH = 0.5  # [s]
+
 
 class PosePair:
-    """Subscribes to both poses and calls back once for each new pair.
+    """Subscribes to both poses and calls back once for each new pair that passes the gate.
 
-    In lockstep `/clock` is a third message of the pair, and the simulator repeats all three until
-    a command answers them.
+    In real time two poses pair if their stamps differ by less than a tolerance. In lockstep the
+    stamps are equal, `/clock` is a third message of the pair, and the simulator repeats all three
+    until a command answers them.
 
     Attributes:
         object_pose: newest pose of the object.
         tip: newest pose of the tip.
-        seen: whether any pair has arrived since the node started.
+        problem: why poses that arrive are not used, empty if the last one was used.
     """
 
     def __init__(
         self,
         node: Node,
-        lockstep: bool,
+        gate: PoseGate,
+        tolerance: float | None,
         on_pair: Callable[[int, float, float], None],
+        on_refused: Callable[[str], None],
         on_repeat: Callable[[], None],
     ) -> None:
         """Subscribes.
 
         Args:
             node: the node that listens.
-            lockstep: whether /clock is the time.
+            gate: checks every pose.
+            tolerance: difference of two stamps [s] that still pair; None in lockstep, where
+                /clock is the time.
             on_pair: called with stamp of the exposure [ns], exposure [s], current time [s].
+            on_refused: called with the reason when a pair is refused.
             on_repeat: called when the simulator repeats the last pair.
         """
         self.object_pose = PoseStamped()
         self.tip = PoseStamped()
-        self.seen = False
-        self._on_pair, self._on_repeat = on_pair, on_repeat
+        self._gate = gate
+        self._on_pair, self._on_refused, self._on_repeat = on_pair, on_refused, on_repeat
+        self._node = node
         self._node_clock = node.get_clock()
-        self._lockstep = lockstep
+        self._lockstep = tolerance is None
+        self._tolerance = round(1e9 * (tolerance or 0.0))
+        self._accepted = float('-inf')
         self.restart()
-        interface.OBJECT_POSE.subscription(node, self._on_object)
-        interface.PUSHER_POSE.subscription(node, self._on_tip)
-        if lockstep:
+        interface.OBJECT_POSE.subscription(node, self._on_object, qos=HEARD_POSE)
+        interface.PUSHER_POSE.subscription(node, self._on_tip, qos=HEARD_POSE)
+        if self._lockstep:
             interface.CLOCK.subscription(node, self._on_clock, qos=QoSProfile(depth=1))
 
     def restart(self) -> None:
         """Forgets all pairs: time [s] counts from the next one."""
-        self._origin = -1
-        self._handled = self._handled_clock = -1
-        self._clock = -1
-        self._object_stamp, self._tip_stamp = -1, -2
+        self.problem = ''
+        self._origin: int | None = None
+        self._handled = self._handled_clock = self._clock = _NEVER
+        self._object_stamp = self._tip_stamp = _NEVER
         self._arrival = time.monotonic()
 
     @property
     def age(self) -> float:
-        """Time [s] since the last pair arrived, or since a restart."""
+        """Time [s] since the last accepted pair arrived, or since a restart."""
         return time.monotonic() - self._arrival
+
+    @property
+    def fresh(self) -> bool:
+        """Whether a pair was accepted within the last half second."""
+        return time.monotonic() - self._accepted < _FRESH
 
     def now(self) -> tuple[int, float]:
         """Current time as a stamp [ns], and in seconds since the first pair."""
         now = self._clock if self._lockstep else int(self._node_clock.now().nanoseconds)
-        return now, to_seconds(now - self._origin)
+        return now, to_seconds(now - (now if self._origin is None else self._origin))
+
+    def explanation(self) -> str:
+        """Why no pair is accepted, as far as it can be told."""
+        if self.problem:
+            return self.problem
+        heard = {
+            interface.OBJECT_POSE: self._object_stamp != _NEVER,
+            interface.PUSHER_POSE: self._tip_stamp != _NEVER,
+        }
+        for topic, arrives in heard.items():
+            if not arrives:
+                return self._silence(topic)
+        if self._lockstep and self._clock == _NEVER:
+            return 'nothing on /clock; this node is in lockstep, is the plant in real time?'
+        apart = abs(self._object_stamp - self._tip_stamp)
+        if apart > self._tolerance:
+            return (
+                f'the stamps of object and tip differ by {1e-6 * apart:.3g} ms, '
+                f'more than poses.pair_tolerance of {1e-6 * self._tolerance:.3g} ms'
+            )
+        return ''
+
+    def _silence(self, topic: GraphTopic) -> str:
+        publishers = self._node.get_publishers_info_by_topic(topic.name)
+        if not publishers:
+            return f'nobody publishes {topic.name}'
+        others = {each.topic_type for each in publishers} - {topic.type_name}
+        if others:
+            return f'{topic.name} is published as {", ".join(others)}, not {topic.type_name}'
+        return f'nothing arrives on {topic.name}'
 
     def _on_object(self, message: PoseStamped) -> None:
         self.object_pose = message
@@ -87,12 +138,37 @@ class PosePair:
 
     def _handle_if_complete(self) -> None:
         stamp = self._object_stamp
-        if stamp != self._tip_stamp or stamp <= self._handled:
+        if abs(stamp - self._tip_stamp) > self._tolerance or stamp == self._handled:
             return
-        if self._lockstep and self._clock <= self._handled_clock:
+        if self._lockstep and self._clock in (_NEVER, self._handled_clock):
+            return
+        self.problem = self._fault(stamp)
+        if self.problem:
+            self._on_refused(self.problem)
             return
         self._handled, self._handled_clock = stamp, self._clock
-        self._origin = stamp if self._origin < 0 else self._origin
-        self._arrival = time.monotonic()
-        self.seen = True
+        self._origin = stamp if self._origin is None else self._origin
+        self._arrival = self._accepted = time.monotonic()
         self._on_pair(stamp, to_seconds(stamp - self._origin), self.now()[1])
+
+    def _fault(self, stamp: int) -> str:
+        """Why the newest pair is refused, empty if it is accepted."""
+        now = self.now()[0]
+        for topic, message in (
+            (interface.OBJECT_POSE, self.object_pose),
+            (interface.PUSHER_POSE, self.tip),
+        ):
+            age = to_seconds(now - to_nanoseconds(message.header.stamp))
+            place, turn = message.pose.position, message.pose.orientation
+            rejection = self._gate.check(
+                topic.name,
+                message.header.frame_id,
+                (place.x, place.y, place.z),
+                (turn.x, turn.y, turn.z, turn.w),
+                age,
+            )
+            if rejection:
+                return rejection.reason
+        if stamp < self._handled:
+            return f'the stamps went back by {1e-9 * (self._handled - stamp):.3g} s'
+        return ''

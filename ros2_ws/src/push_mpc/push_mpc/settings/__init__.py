@@ -3,6 +3,7 @@
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.node_settings import MpcSettings, mpc_settings
+from push_mpc.settings.pose_gate_settings import PoseGateSettings
 from push_mpc.settings.presets import PRESETS
 from push_mpc.settings.recontact import approach, departure, is_apart
 
@@ -11,6 +12,7 @@ __all__ = [
     'PRESETS',
     'ControllerSettings',
     'MpcSettings',
+    'PoseGateSettings',
     'approach',
     'departure',
     'is_apart',

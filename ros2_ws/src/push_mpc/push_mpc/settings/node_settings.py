@@ -6,6 +6,7 @@ from push_core.common import nested, setting, validate
 from push_core.physics import ACTUATORS, Slider
 
 from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.pose_gate_settings import PoseGateSettings
 from push_mpc.settings.presets import PRESETS, with_preset
 
 
@@ -46,6 +47,7 @@ class MpcSettings(ControllerSettings):
     pose_loss: float = setting(
         0.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
+    poses: PoseGateSettings = nested(PoseGateSettings())
     require_recorder: bool = setting(True, 'start only while the recorder records')
     slider: Slider = nested(Slider())
 
