@@ -19,8 +19,9 @@ from push_msgs.srv import Predict
 from push_node import interface, qos
 from push_node.ask import ask
 from push_node.spin import Spinner
-from push_node.stamps import to_nanoseconds
+from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
 pytestmark = pytest.mark.processes
@@ -32,10 +33,12 @@ LINE = 'track:=line'
 class Cell:
     """Everything around the controller, standing still at the start of the line."""
 
-    def __init__(self) -> None:
+    def __init__(self, pose_qos: QoSProfile = qos.POSE) -> None:
         self.node = Node('cell')
         self.spinner = Spinner(self.node)
         self.poses_on = self.recording = False
+        self.spoil: Callable[[PoseStamped], None] = lambda message: None
+        self.spoil_tip: Callable[[PoseStamped], None] = lambda message: None
         self.model_id = ''
         self.states: list[ControllerState] = []
         self.commands: list[TwistStamped] = []
@@ -44,8 +47,8 @@ class Cell:
         node, slider = self.node, Slider()
         self._tip = slider.tip_position(np.zeros(3), 0.0)
         self._cone = MotionCone(slider)
-        self._object = node.create_publisher(PoseStamped, 'object_pose', qos.POSE)
-        self._pusher = node.create_publisher(PoseStamped, 'pusher_pose', qos.POSE)
+        self._object = node.create_publisher(PoseStamped, 'object_pose', pose_qos)
+        self._pusher = node.create_publisher(PoseStamped, 'pusher_pose', pose_qos)
         self._models = node.create_publisher(ModelInfo, 'model_info', qos.LATCHED)
         self._health = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         node.create_subscription(
@@ -80,7 +83,11 @@ class Cell:
         for publisher, place in ((self._object, (0.0, 0.0)), (self._pusher, self._tip)):
             message = PoseStamped()
             message.header.stamp = stamp
+            message.header.frame_id = 'world'
             message.pose.position.x, message.pose.position.y = map(float, place)
+            self.spoil(message)
+            if publisher is self._pusher:
+                self.spoil_tip(message)
             publisher.publish(message)
 
     def _report(self) -> None:
@@ -123,10 +130,15 @@ class Cell:
 
 
 @pytest.fixture
-def cell() -> Iterator[Cell]:
+def context() -> Iterator[None]:
     rclpy.init()
-    yield Cell()
+    yield
     rclpy.try_shutdown()
+
+
+@pytest.fixture
+def cell(context) -> Cell:
+    return Cell()
 
 
 @pytest.fixture
@@ -287,3 +299,125 @@ def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it(started, pa
     lines = process.stderr.read().splitlines()
     assert len(lines) == 1
     assert parameter.split(':=')[0] in lines[0]
+
+
+def shifted(seconds: float) -> Callable[[PoseStamped], None]:
+    """Moves the stamp of a message."""
+
+    def spoil(message: PoseStamped) -> None:
+        stamp = to_nanoseconds(message.header.stamp) + round(1e9 * seconds)
+        message.header.stamp = to_stamp(stamp)
+
+    return spoil
+
+
+def set_frame(message: PoseStamped) -> None:
+    message.header.frame_id = 'camera_optical'
+
+
+def clear_stamp(message: PoseStamped) -> None:
+    message.header.stamp = to_stamp(0)
+
+
+def clear_quaternion(message: PoseStamped) -> None:
+    message.pose.orientation.w = 0.0
+
+
+def to_millimetres(message: PoseStamped) -> None:
+    message.pose.position.x *= 1000.0
+
+
+def tilt(message: PoseStamped) -> None:
+    message.pose.orientation.x = message.pose.orientation.w = 0.5**0.5
+
+
+def move_away(message: PoseStamped) -> None:
+    message.pose.position.x += 0.1
+
+
+IMPOSSIBLE = {
+    'an hour old': (shifted(-3600.0), 's old; are the clocks synchronised?'),
+    'a third of a second old': (shifted(-0.3), 's old; are the clocks synchronised?'),
+    'from the future': (shifted(0.5), 's in the future'),
+    'an hour from the future': (shifted(3600.0), 's in the future'),
+    'stamp 0': (clear_stamp, 'its stamp is not set, or is simulated time'),
+    'frame': (set_frame, "its frame is 'camera_optical', not 'world'"),
+    'zero quaternion': (clear_quaternion, 'norm 0'),
+    'tilted': (tilt, 'tilted by 90 degrees'),
+    'millimetres': (to_millimetres, 'are these metres?'),
+    'elsewhere': (move_away, '100 mm and 0 deg from the start of the plan'),
+}
+
+
+def test_what_cannot_be_never_starts_and_is_named(cell, started) -> None:
+    started(LINE, 'require_recorder:=false')
+    cell.announce_model()
+    cell.poses_on = True
+    for spoil, reason in IMPOSSIBLE.values():
+        cell.spoil = spoil
+        cell.call_until('start', lambda answer, reason=reason: reason in answer.message)
+    assert cell.commands == []
+    cell.spoil = lambda message: None
+    cell.call_until('start', lambda answer: answer.success)
+
+
+@pytest.mark.parametrize('seconds', [-5.0, -0.3, 0.5, 3600.0])
+def test_a_clock_that_jumps_during_the_run_stops_it_with_the_reason(
+    cell, started, seconds: float
+) -> None:
+    started(LINE, pose_loss=0.5)
+    cell.begin()
+    cell.spoil = shifted(seconds)
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert 'are the clocks synchronised?' in cell.states[-1].stop_reason
+    cell.wait(lambda: is_zero(cell.commands[-1]))
+
+
+def test_stamps_of_two_devices_pair(cell, started) -> None:
+    started(LINE)
+    cell.spoil_tip = shifted(-0.003)
+    cell.begin()
+
+
+def test_stamps_too_far_apart_are_named(cell, started) -> None:
+    started(LINE, 'require_recorder:=false', 'poses.pair_tolerance:=0.001')
+    cell.announce_model()
+    cell.spoil_tip = shifted(-0.004)
+    cell.poses_on = True
+    cell.call_until(
+        'start', lambda answer: 'the stamps of object and tip differ by' in answer.message
+    )
+
+
+@pytest.mark.parametrize(
+    'profile',
+    [
+        QoSProfile(depth=10),
+        QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT),
+        QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL),
+    ],
+    ids=['default', 'sensor data', 'latched'],
+)
+def test_poses_of_any_quality_of_service_are_heard(context, started, profile) -> None:
+    started(LINE)
+    Cell(profile).begin()
+
+
+def test_a_node_in_lockstep_says_that_there_is_no_clock(cell, started) -> None:
+    started(LINE, 'require_recorder:=false', 'mode:=lockstep')
+    cell.announce_model()
+    cell.poses_on = True
+    cell.call_until('start', lambda answer: 'nothing on /clock' in answer.message)
+
+
+def test_a_second_commander_is_named_and_stops_the_run(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    rogue = Node('teleop')
+    publisher = rogue.create_publisher(TwistStamped, 'pusher_velocity_cmd', qos.COMMAND)
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert cell.states[-1].stop_reason == '/teleop commands the tip as well'
+    assert cell.call('resume').success
+    cell.call_until('start', lambda answer: '/teleop commands the tip as well' in answer.message)
+    rogue.destroy_publisher(publisher)
+    cell.call_until('start', lambda answer: answer.success)

@@ -235,7 +235,7 @@ class MpcNode(Node):  # type: ignore[misc]
             return 'waiting for the recorder'
         if not self._poses.fresh:
             why = self._poses.explanation()
-            self._poses.restart()
+            self._poses.rewind()
             return f'waiting for poses: {why}' if why else 'waiting for poses'
         rivals = self._graph.warning()
         if rivals:

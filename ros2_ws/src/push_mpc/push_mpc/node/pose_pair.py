@@ -74,6 +74,10 @@ class PosePair:
         self._object_stamp = self._tip_stamp = _NEVER
         self._arrival = time.monotonic()
 
+    def rewind(self) -> None:
+        """Accepts stamps older than the last pair's: a clock was set, or the plant restarted."""
+        self._handled = self._handled_clock = _NEVER
+
     @property
     def age(self) -> float:
         """Time [s] since the last accepted pair arrived, or since a restart."""
@@ -93,12 +97,11 @@ class PosePair:
         """Why no pair is accepted, as far as it can be told."""
         if self.problem:
             return self.problem
-        heard = {
-            interface.OBJECT_POSE: self._object_stamp != _NEVER,
-            interface.PUSHER_POSE: self._tip_stamp != _NEVER,
-        }
-        for topic, arrives in heard.items():
-            if not arrives:
+        for topic, stamp in (
+            (interface.OBJECT_POSE, self._object_stamp),
+            (interface.PUSHER_POSE, self._tip_stamp),
+        ):
+            if stamp == _NEVER:
                 return self._silence(topic)
         if self._lockstep and self._clock == _NEVER:
             return 'nothing on /clock; this node is in lockstep, is the plant in real time?'
