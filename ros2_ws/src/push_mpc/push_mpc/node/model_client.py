@@ -96,24 +96,27 @@ class ModelClient:
         def on_response(future: Future) -> None:
             if self._pending is pending and pending.query is query:
                 pending.query = None
-                self._worker.submit(self._take, pending, future)
+                self._worker.submit(self._take, pending, query, future)
 
         self._client.call_async(request_of(query)).add_done_callback(on_response)
 
-    def _take(self, pending: _Pending, future: Future) -> None:
+    def _take(self, pending: _Pending, query: Query, future: Future) -> None:
         """Runs in the worker, which does not report exceptions by itself."""
         try:
-            self._continue(pending, future.result())
+            self._continue(pending, query, future.result())
         except (PushError, ValueError) as error:
             self.problem = f'the model cannot be used: {error}'
         except Exception as error:  # noqa: BLE001
             self.problem = f'the model cannot be used: {error!r}'
 
-    def _continue(self, pending: _Pending, response: Predict.Response) -> None:
+    def _continue(self, pending: _Pending, query: Query, response: Predict.Response) -> None:
         """Feeds a response to the tabulation; prepares the model when the table is done."""
         if not response.success:
             self.problem = f'the model server refused: {response.message}'
-        elif response.model_id == pending.info.model_id:
+        elif response.model_id != pending.info.model_id:
+            # the server has not taken the announced model over yet, or already has another
+            pending.query = query
+        else:
             try:
                 query = pending.tabulation.send(result_of(response, pending.info.distance))
             except StopIteration as done:
