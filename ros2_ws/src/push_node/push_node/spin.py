@@ -61,6 +61,7 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         return error.status if isinstance(error, PushError) else 1
     finally:
         rclpy.try_shutdown()
+        _ignore_signals()
     return 0
 
 
@@ -82,6 +83,12 @@ def stop_on_signals() -> None:
     """Makes SIGINT and SIGTERM request a stop instead of ending the process at once."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _on_signal)
+
+
+def _ignore_signals() -> None:
+    """Lets a further Ctrl-C not kill the interpreter, which resets handlers while it ends."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
 
 
 def _wants_help(arguments: Sequence[str]) -> bool:

@@ -35,6 +35,16 @@ class Tested(Node):
 
 sys.exit(run_node(Tested))
 """
+# sends a signal while the interpreter ends, which has then reset its own handlers
+LATE_SIGNAL = """
+import os
+
+class Late:
+    def __del__(self, kill=os.kill, own=os.getpid()):
+        kill(own, {number:d})
+
+late = Late()
+"""
 
 
 def cpu_seconds(pid: int) -> float:
@@ -59,6 +69,16 @@ def test_a_signal_ends_it_cleaned_up_with_status_0(node, number) -> None:
     assert process.returncode == 0
     assert output == 'cleaned up\n'
     assert errors == ''
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_further_signals_while_it_ends_change_nothing(started, number) -> None:
+    program = PROGRAM.format(construction='pass', tick='pass')
+    process = started(LATE_SIGNAL.format(number=number) + program)
+    assert process.stdout.readline() == 'ready\n'
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, errors) == (0, '')
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
