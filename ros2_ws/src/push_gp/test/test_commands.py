@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -174,3 +175,48 @@ def test_a_wrong_curve_command_is_one_line_and_status_2(
     shown = capsys.readouterr().err
     assert fault in shown
     assert shown.count('\n') == 1
+
+
+def test_copies_of_rows_count_once_and_are_named(
+    pushes: PushSet, data: Path, capsys: Capture
+) -> None:
+    alone = load_model(trained(data)).info
+    write_pushes(data, pushes.joined(pushes))
+    capsys.readouterr()
+    assert load_model(trained(data)).info.model_id == alone.model_id
+    assert f'{len(pushes)} of {2 * len(pushes)} rows are copies' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('command', ['train', 'evaluate', 'curve'])
+def test_pushes_that_contradict_physics_are_refused_but_by_force(
+    pushes: PushSet, data: Path, capsys: Capture, command: str
+) -> None:
+    model = trained(data, '--points', '20')
+    write_pushes(data, replace(pushes, displacement=pushes.displacement * [1.0, 1.0, -1.0]))
+    capsys.readouterr()
+    run = {
+        'train': lambda *more: train.main([str(data), '-o', str(model), *more]),
+        'evaluate': lambda *more: evaluate.main([str(model), str(data), *more]),
+        'curve': lambda *more: curve.main(
+            [str(data), '--points', '5', '--seeds', '1', '--json', *more]
+        ),
+    }[command]
+    assert run() == 2
+    error = capsys.readouterr().err
+    assert 'dtheta_rad has the other sign' in error
+    assert len(error.splitlines()) == 1
+    assert run('--force') == 0
+    assert 'warning: ' in capsys.readouterr().err
+
+
+def test_a_set_too_large_for_an_exact_process_is_thinned_with_a_word(
+    data: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(train, 'MOST', 50)
+    monkeypatch.setattr(train, 'THINNED', 20)
+    monkeypatch.setattr(train, 'LARGEST', 55)
+    path = trained(data)
+    assert load_model(path).info.points == 20
+    assert '60 pushes are many' in capsys.readouterr().err
+    assert load_model(trained(data, '--points', '52')).info.points == 52
+    assert train.main([str(data), '-o', str(path), '--points', '60']) == 2

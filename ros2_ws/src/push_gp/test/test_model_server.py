@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -121,3 +122,20 @@ def test_beyond_the_cap_the_older_of_the_closest_pushes_go(
 def test_the_motion_cone_does_not_learn(more_pushes: PushSet) -> None:
     with pytest.raises(InputError, match='cannot be extended'):
         ModelServer(AnalyticalModel(), 80).add_pushes(more_pushes)
+
+
+def test_pushes_that_contradict_physics_are_not_added(
+    server: ModelServer, more_pushes: PushSet
+) -> None:
+    before = server.model
+    wrong = replace(more_pushes, displacement=more_pushes.displacement * [1.0, 1.0, 57.3])
+    with pytest.raises(InputError, match='dtheta_rad look like degrees'):
+        server.add_pushes(wrong)
+    assert server.model is before
+
+
+def test_a_push_that_comes_twice_is_added_once(server: ModelServer, more_pushes: PushSet) -> None:
+    before = server.info.points
+    (warning,) = server.add_pushes(more_pushes.joined(more_pushes))
+    assert server.info.points == before + len(more_pushes)
+    assert warning.endswith('copies of others and are left out')

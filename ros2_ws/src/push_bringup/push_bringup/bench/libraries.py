@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from push_core.common import InputError, Parser, RunError, run_command
-from push_core.data import PushSet, accuracy, read_pushes
+from push_core.data import PushSet, accuracy, read_checked_pushes
 from push_gp.models import nested_rows
 from tqdm import tqdm
 
@@ -55,7 +55,7 @@ def work(arguments: argparse.Namespace) -> None:
     Raises:
         InputError: the file or the number of points is wrong.
     """
-    pushes = read_pushes(arguments.data)
+    pushes = read_checked_pushes(arguments.data)
     if not 1 <= arguments.points <= len(pushes) - 2 or arguments.seed < 0:
         raise InputError(
             f'cannot train on {arguments.points} of {len(pushes)} pushes and hold some out; '

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from push_core.common import InputError, Parser, run_command, worker_pool, write_atomically
-from push_core.data import PushSet, read_pushes
+from push_core.data import PushSet, read_checked_pushes
 from push_gp.models import ANALYTICAL, MEAN_FUNCTIONS, five_push_rows, nested_rows, save_model
 from push_gp.training.train import train
 from push_sim.collect import collect_pushes
@@ -109,7 +109,7 @@ def work(arguments: argparse.Namespace) -> None:
 
 def _pushes(arguments: argparse.Namespace) -> PushSet:
     if arguments.data is not None:
-        return read_pushes(arguments.data)
+        return read_checked_pushes(arguments.data)
     return collect_pushes(COLLECTED, 0, arguments.profile, jobs=arguments.jobs)
 
 

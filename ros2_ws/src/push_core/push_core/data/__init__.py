@@ -1,5 +1,6 @@
 """Data sets of pushes and their CSV files, and the prediction error on them."""
 
+from push_core.data.checked_pushes import FORCE_HELP, checked_pushes, read_checked_pushes
 from push_core.data.csv_table import CsvTable, read_table
 from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
@@ -24,6 +25,7 @@ from push_core.data.robot_run import RobotRun, read_robot_run
 
 __all__ = [
     'FACE_MARGIN',
+    'FORCE_HELP',
     'HALF_FACE',
     'OUTPUTS',
     'P_Y_LIMIT',
@@ -36,11 +38,13 @@ __all__ = [
     'RobotRun',
     'accuracy',
     'check_distance',
+    'checked_pushes',
     'five_push_pattern',
     'holds_long_pushes',
     'in_push_frame',
     'input_fault',
     'per_output',
+    'read_checked_pushes',
     'read_long_pushes',
     'read_pushes',
     'read_robot_run',

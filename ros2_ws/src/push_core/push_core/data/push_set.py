@@ -17,6 +17,8 @@ HALF_FACE = 0.045
 P_Y_LIMIT = HALF_FACE + 0.005
 """Largest contact offset of any push or query [m]: the face and a margin for its corner."""
 
+COPY_TOLERANCE = 1e-6  # [m], [rad]
+
 LARGEST_DISPLACEMENT = np.array([1.0, 1.0, math.pi])
 """Larger displacements [m, m, rad] are refused: the file is in millimetres or degrees."""
 
@@ -74,6 +76,16 @@ class PushSet:
         return PushSet(
             self.p_y[rows], self.beta[rows], self.displacement[rows], self.distance, subsets
         )
+
+    def without_copies(self) -> 'PushSet':
+        """The set with rows that agree in all numbers, to 1e-6, counted once.
+
+        Measurements are noisy, so that equal ones are copies: of a file joined to itself, or of a
+        log that was written twice.
+        """
+        numbers = np.column_stack((self.inputs, self.displacement))
+        _, rows = np.unique(np.round(numbers / COPY_TOLERANCE), axis=0, return_index=True)
+        return self if rows.size == len(self) else self.take(np.sort(rows))
 
     def joined(self, other: 'PushSet') -> 'PushSet':
         """These pushes followed by the others; named selections are dropped.

@@ -13,7 +13,7 @@ from push_core.common import (
     plain_table,
     run_command,
 )
-from push_core.data import PushSet, read_pushes
+from push_core.data import FORCE_HELP, PushSet, read_checked_pushes
 from tqdm import tqdm
 
 from push_gp.evaluation import METHODS, CurvePoint, curve_sizes, learning_curve
@@ -45,6 +45,7 @@ def parser() -> Parser:
         metavar='N',
         help='numbers of training pushes; default: 5 10 20 50 100 … as many as the file allows',
     )
+    arguments.add_argument('--force', action='store_true', help=FORCE_HELP)
     arguments.add_argument('--json', action='store_true', help='print one JSON object only')
     arguments.add_argument('--html', metavar='FILE', type=Path, help='also write an HTML page')
     return arguments
@@ -60,7 +61,7 @@ def work(arguments: argparse.Namespace) -> None:
         raise InputError(f'--seeds is {arguments.seeds}, must be at least 1')
     if arguments.html:
         check_place(arguments.html)
-    pushes = read_pushes(arguments.data)
+    pushes = read_checked_pushes(arguments.data, force=arguments.force)
     points = _points(pushes, curve_sizes(len(pushes), arguments.points), arguments.seeds)
     lines = _lines(points)
     if arguments.html:

@@ -6,7 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from push_core.common import Parser, check_place, json_text, plain_table, run_command
-from push_core.data import OUTPUTS, READABLE, holds_long_pushes, read_long_pushes, read_pushes
+from push_core.data import (
+    FORCE_HELP,
+    OUTPUTS,
+    READABLE,
+    holds_long_pushes,
+    read_checked_pushes,
+    read_long_pushes,
+)
 from push_core.geometry import Array
 
 from push_gp.evaluation import Evaluation, RolloutEvaluation, evaluate, rollout_evaluation
@@ -30,6 +37,7 @@ def parser() -> Parser:
     arguments.prog = 'push_gp evaluate'
     arguments.add_argument('model', help="a model file, or 'analytical' for the motion cone")
     arguments.add_argument('data', type=Path, help='CSV file of pushes to compare with')
+    arguments.add_argument('--force', action='store_true', help=FORCE_HELP)
     arguments.add_argument('--json', action='store_true', help='print one JSON object only')
     arguments.add_argument('--html', metavar='FILE', type=Path, help='also write an HTML page')
     return arguments
@@ -49,7 +57,7 @@ def work(arguments: argparse.Namespace) -> None:
 
 
 def _short_pushes(model: PushModel, arguments: argparse.Namespace) -> str:
-    pushes = read_pushes(arguments.data)
+    pushes = read_checked_pushes(arguments.data, force=arguments.force)
     result = evaluate(model, pushes)
     lines = _lines(result)
     if arguments.html:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from push_core.common import InputError, Parser, check_place, run_command
-from push_core.data import OUTPUTS, PushSet, read_pushes
+from push_core.data import FORCE_HELP, OUTPUTS, PushSet, read_checked_pushes
 from tqdm import tqdm
 
 from push_gp.evaluation import training_summary
@@ -23,6 +23,10 @@ from push_gp.models import (
     subset_rows,
 )
 from push_gp.training.train import train
+
+MOST = 5000  # pushes that are all used; the fit takes half a minute
+THINNED = 2000  # of more; the error of measured pushes hardly falls beyond, the fit takes seconds
+LARGEST = 10_000  # the fit needs 5 GiB
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -40,7 +44,11 @@ def parser() -> Parser:
     arguments.add_argument('data', type=Path, help='CSV file of pushes')
     arguments.add_argument('-o', '--output', type=Path, required=True, help='the model file')
     which = arguments.add_mutually_exclusive_group()
-    which.add_argument('--points', type=int, help='how many random pushes; default: all')
+    which.add_argument(
+        '--points',
+        type=int,
+        help=f'how many random pushes; default: all, {THINNED} of more than {MOST}',
+    )
     which.add_argument('--subset', metavar='COLUMN', help='the pushes where COLUMN is 1')
     which.add_argument(
         '--pick',
@@ -60,6 +68,7 @@ def parser() -> Parser:
         default='zero',
         help='prior mean: no motion, or a fitted motion cone (default zero)',
     )
+    arguments.add_argument('--force', action='store_true', help=FORCE_HELP)
     return arguments
 
 
@@ -70,7 +79,7 @@ def work(arguments: argparse.Namespace) -> None:
         InputError: the file or the choice of pushes is wrong, or the model cannot be written.
     """
     check_place(arguments.output)
-    pushes = read_pushes(arguments.data)
+    pushes = read_checked_pushes(arguments.data, force=arguments.force)
     rows = chosen_rows(pushes, arguments)
     model = _trained(pushes.take(rows), arguments.mean)
     save_model(arguments.output, model)
@@ -95,9 +104,23 @@ def chosen_rows(pushes: PushSet, arguments: argparse.Namespace) -> Rows:
     seed = arguments.seed or 0
     if seed < 0:
         raise InputError(f'--seed is {seed}, must not be negative')
-    points = len(pushes) if arguments.points is None else arguments.points
+    points = _all_or_thinned(pushes) if arguments.points is None else arguments.points
+    if points > LARGEST:
+        raise InputError(
+            f'--points is {points}; an exact Gaussian process takes {LARGEST} at most'
+        )
     choose = nested_rows if arguments.nested else random_rows
     return choose(pushes, points, seed)
+
+
+def _all_or_thinned(pushes: PushSet) -> int:
+    if len(pushes) <= MOST:
+        return len(pushes)
+    sys.stderr.write(
+        f'{len(pushes)} pushes are many for an exact Gaussian process: {THINNED} random ones are '
+        'used; --points chooses another number\n'
+    )
+    return THINNED
 
 
 def _trained(pushes: PushSet, mean: str) -> GpModel:

@@ -67,7 +67,7 @@ class GpServer(Node):  # type: ignore[misc]
     ) -> AddPushes.Response:
         try:
             pushes = pushes_of(request)
-            self._server.add_pushes(pushes)
+            response.message = '; '.join(self._server.add_pushes(pushes))
         except PushError as error:
             self._refuse(response, error)
         else:

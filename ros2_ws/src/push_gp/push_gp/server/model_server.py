@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from push_core.common import InputError
-from push_core.data import PushSet, input_fault
+from push_core.data import PushSet, checked_pushes, input_fault
 from push_core.geometry import Array
 
 from push_gp.models import GpModel, ModelInfo, PushModel
@@ -73,15 +73,22 @@ class ModelServer:
         variance = self._model.variance(p_y, beta) if want_variance else np.empty((0, 3))
         return Prediction(mean, jacobian, variance)
 
-    def add_pushes(self, pushes: PushSet) -> None:
+    def add_pushes(self, pushes: PushSet) -> list[str]:
         """Adds pushes at the same hyperparameters; after an error the model is unchanged.
 
+        Returns:
+            Warnings: copies that were left out, what is odd in the pushes.
+
         Raises:
-            InputError: the model is analytical, or the pushes are of another distance.
+            InputError: the model is analytical, or the pushes are of another distance or
+                contradict the physics of pushing.
             RunError: the pushes make its covariance singular.
         """
         if not isinstance(self._model, GpModel):
             raise InputError('the analytical model cannot be extended; serve a model file instead')
         if not len(pushes):
             raise InputError('there are no pushes to add')
-        self._model = self._model.extended(pushes).thinned(self._max_points)
+        warnings: list[str] = []
+        distinct = checked_pushes(pushes, 'added pushes', warn=warnings.append)
+        self._model = self._model.extended(distinct).thinned(self._max_points)
+        return warnings
