@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from push_core.common import InputError, Parser, json_text, run_command, write_atomically
+from push_core.common import InputError, Parser, RunError, json_text, run_command, write_atomically
 from tqdm import tqdm
 
 from push_bag.run import RunSeries, read_run
@@ -36,7 +36,9 @@ examples:
 A figure is named by its path in the JSON; mean, rms, p95 and max alone mean those of the tracking
 error. `lost` is the number of lost messages; `incomplete` is 1 for a run that was not completed,
 else 0. Definitions: docs/scoring.md.
-Exit status: 0 scored, 1 a figure exceeds its bound, 2 wrong command line or bag.
+Where a run lacks a figure, the table and `reasons` in the JSON say why.
+Exit status: 0 scored, 1 no tracking error or a figure exceeds its bound, 2 wrong command line or
+bag.
 """
 
 
@@ -76,7 +78,20 @@ def _work(arguments: argparse.Namespace) -> None:
         raise InputError('--compare takes two runs and excludes --json')
     scores = list(zip(map(str, arguments.runs), _scored(arguments), strict=True))
     sys.stdout.write(_text(arguments, scores))
+    _check_scored(scores)
     check_bounds(scores, bounds)
+
+
+def _check_scored(scores: Scores) -> None:
+    """Checks that each score has a tracking error.
+
+    Raises:
+        RunError: one has none; says why.
+    """
+    for run, score in scores:
+        reason = score['reasons'].get('tracking_error_mm')
+        if reason:
+            raise RunError(f'{run} has no tracking error: {reason}')
 
 
 def _scored(arguments: argparse.Namespace) -> list[dict[str, Any]]:

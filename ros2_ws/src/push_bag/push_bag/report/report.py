@@ -97,6 +97,8 @@ def _in_short(run: ReportedRun) -> str:
 def _verdict(score: Mapping[str, Any]) -> str:
     if score['completed']:
         return 'completed'
+    if score['completed'] is None:
+        return escape(f'not known whether completed: {score["reasons"]["completed"]}')
     return escape(f'stopped: {score["stop_reason"]}' if score['stop_reason'] else 'not completed')
 
 
@@ -108,13 +110,17 @@ def _headlines(score: Mapping[str, Any]) -> list[tuple[str, str]]:
         ('largest tracking error', _measure(errors['max'], 'mm')),
         ('p99 of solving', _measure(score['solve_ms']['p99'], 'ms')),
         ('p99 of pose to command', _measure(score['pose_to_command_ms']['p99'], 'ms')),
-        ('deadline misses', str(score['deadline_misses'])),
-        ('contact losses', str(score['contact_losses'])),
+        ('deadline misses', _count(score['deadline_misses'])),
+        ('contact losses', _count(score['contact_losses'])),
     ]
 
 
 def _measure(value: float | None, unit: str) -> str:
     return '–' if value is None else f'{value:.2f} {unit}'
+
+
+def _count(value: int | None) -> str:
+    return '–' if value is None else str(value)
 
 
 def _card(name: str, value: str, colour: str = '') -> str:
@@ -128,8 +134,11 @@ def _names(runs: Sequence[ReportedRun]) -> list[str]:
 
 
 def _score_rows(runs: Sequence[ReportedRun]) -> list[list[str]]:
-    tables = [[*score_rows(run.score), ('messages', messages_line(run.score))] for run in runs]
-    return [[rows[0][0], *(value for _, value in rows)] for rows in zip(*tables, strict=True)]
+    tables = [
+        dict([*score_rows(run.score), ('messages', messages_line(run.score))]) for run in runs
+    ]
+    names = dict.fromkeys(name for table in tables for name in table)
+    return [[name, *(table.get(name, '–') for table in tables)] for name in names]
 
 
 def _message_rows(runs: Sequence[ReportedRun]) -> list[list[str]]:

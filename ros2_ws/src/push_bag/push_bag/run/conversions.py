@@ -3,6 +3,7 @@
 Topics with a message per tick are decoded by columns (`cdr_columns`), rare ones as messages.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def stamps(columns: Columns) -> NDArray[np.int64]:
 def planar_poses(columns: Columns) -> Floats:
     """X [m], y [m] and heading [rad] (n, 3) of poses that rotate about z only."""
     turns = zip(columns['pose.orientation.z'], columns['pose.orientation.w'], strict=True)
-    yaw = [quaternion_to_yaw(z, w) for z, w in turns]
+    yaw = [quaternion_to_yaw(z, w) if math.isfinite(z + w) else math.nan for z, w in turns]
     return np.column_stack([columns['pose.position.x'], columns['pose.position.y'], yaw])
 
 

@@ -56,7 +56,8 @@ def figure(score: Mapping[str, Any], name: str) -> float:
         InputError: a score has no figure of this name.
     """
     if name == 'lost':
-        return float(messages_lost(score))
+        lost = messages_lost(score)
+        return math.nan if lost is None else float(lost)
     if name == 'incomplete':
         return float(not score['completed'])
     value: Any = score

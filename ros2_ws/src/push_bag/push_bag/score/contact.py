@@ -19,7 +19,7 @@ LOST_GAP = 0.5e-3  # [m]
 
 @dataclass(frozen=True)
 class Contact:
-    """Gap and contact offset at each instant during tracking with both poses.
+    """Gap and contact offset at each instant during tracking at which both poses are known.
 
     Attributes:
         stamp: (n,) [ns].
@@ -36,6 +36,9 @@ def contact(run: RunSeries, reference: Reference) -> Contact:
     """Gap and contact offset of a run during tracking."""
     index, exists = run.pusher.at(run.object.stamp)
     used = exists & during_tracking(run, run.object.stamp)
+    used &= np.isfinite(run.object.values).all(axis=1)
+    if run.pusher.stamp.size:
+        used &= np.isfinite(run.pusher.values[index]).all(axis=1)
     pose, tip = run.object.values[used], run.pusher.values[index[used]]
     x_body, y_body = points_to_body(pose, tip).T
     gap = -reference.side / 2.0 - reference.tip_radius - x_body

@@ -31,10 +31,11 @@ def runs_table(scores: Scores) -> str:
     rows = [('run', 'completed', *SHOWN)]
     for name, score in scores:
         figures = (figure(score, path) for path in SHOWN.values())
-        rows.append((name, 'yes' if score['completed'] else 'no', *map(_number, figures)))
-    done = sum(bool(score['completed']) for _, score in scores)
+        done = {True: 'yes', False: 'no', None: '-'}[score['completed']]
+        rows.append((name, done, *map(_number, figures)))
+    count = sum(bool(score['completed']) for _, score in scores)
     columns = [_over_runs(scores, path) for path in SHOWN.values()]
-    rows.append(('mean', f'{done} of {len(scores)}', *(_number(mean) for mean, _ in columns)))
+    rows.append(('mean', f'{count} of {len(scores)}', *(_number(mean) for mean, _ in columns)))
     rows.append(('spread', '', *(_number(spread) for _, spread in columns)))
     return '\n'.join(plain_table(rows)) + '\n'
 

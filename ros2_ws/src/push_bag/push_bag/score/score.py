@@ -2,6 +2,7 @@
 
 Formulas: tracking.py, contact.py, timing.py, message_counts.py. `completed`: the controller
 reached mode DONE without a stop, and the end of the run satisfies `push_core.tracks.is_completed`.
+A figure that a run does not have is None; `reasons` says why.
 """
 
 import math
@@ -12,10 +13,12 @@ import numpy as np
 from push_core.common import InputError, finite
 from push_core.tracks import is_completed
 from push_msgs.msg import ControllerState
+from push_node import interface
 
 from push_bag.run import Floats, Reference, RunSeries, read_run
 from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.message_counts import message_counts
+from push_bag.score.reasons import left_out, other_topics, reasons
 from push_bag.score.timing import timing
 from push_bag.score.tracking import Tracking, tracking_errors, true_tracking_errors
 
@@ -49,7 +52,10 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         InputError: the run holds no reference to score it against.
     """
     if run.reference is None:
-        raise InputError('the bag holds no nominal trajectory, so there is nothing to score')
+        others = other_topics(run.types, interface.NOMINAL_TRAJECTORY)
+        raise InputError(
+            f'the bag holds no nominal trajectory, so there is nothing to score{others}'
+        )
     tracking, truth = tracking_errors(run, run.reference), true_tracking_errors(run, run.reference)
     score = {
         **_verdict(run, run.reference, tracking),
@@ -57,24 +63,28 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         **_errors(tracking),
         'truth': None if truth is None else _distances(truth),
         **_times(run),
-        'contact_losses': len(loss_intervals(contact(run, run.reference))),
+        'contact_losses': contact_losses(run, run.reference),
         'holds': holds(run),
         'limited': limited(run),
         'messages': message_counts(run),
+        'left_out': left_out(run),
     }
+    score['reasons'] = reasons(run, score)
     without_nan: dict[str, Any] = finite(score)
     return without_nan
 
 
-def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
-    """Whether the run was completed; see `push_core.tracks.is_completed`."""
-    touching = contact(run, reference)
-    if not tracking.stamp.size or not touching.stamp.size:
-        return False
+def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool | None:
+    """Whether the run was completed, see `push_core.tracks.is_completed`; None if unknown."""
     modes = run.state('mode')
     arrived, stopped = ControllerState.DONE in modes, ControllerState.STOPPED in modes
+    if modes.size and (stopped or not arrived):
+        return False
+    touching = contact(run, reference)
+    if not tracking.stamp.size or not touching.stamp.size:
+        return None
     return is_completed(
-        arrived=arrived and not stopped,
+        arrived=True,
         distance=float(np.hypot(*(tracking.pose[-1, :2] - reference.pose[-1, :2]))),
         gap=float(touching.gap[-1]),
         contact_offset=float(touching.p_y[-1]),
@@ -82,26 +92,39 @@ def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool:
     )
 
 
-def limited(run: RunSeries) -> dict[str, int]:
-    """Number of ticks during tracking in which each limit changed the command."""
+def contact_losses(run: RunSeries, reference: Reference) -> int | None:
+    """How often the tip lost contact; None if its position on the face is never known."""
+    touching = contact(run, reference)
+    return len(loss_intervals(touching)) if touching.stamp.size else None
+
+
+def limited(run: RunSeries) -> dict[str, int] | None:
+    """Number of ticks during tracking in which each limit changed the command.
+
+    None without ticks.
+    """
+    if not run.states.stamp.size:
+        return None
     bits = run.state('limited')[run.following].astype(np.int64)
     return {name: int(np.count_nonzero(bits & bit)) for name, bit in LIMITS.items()}
 
 
-def holds(run: RunSeries) -> int:
-    """How often the controller stood still because it had no fresh pose."""
+def holds(run: RunSeries) -> int | None:
+    """How often the controller stood still because it had no fresh pose; None without ticks."""
+    if not run.states.stamp.size:
+        return None
     holding = run.state('mode') == ControllerState.HOLDING
     return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
 
 
 def _verdict(run: RunSeries, reference: Reference, tracking: Tracking) -> dict[str, Any]:
-    last = tracking.reference_time[-1] if tracking.stamp.size else 0.0
+    last = tracking.reference_time[-1] if tracking.stamp.size else math.nan
     return {
         'completed': completed(run, reference, tracking),
         'stop_reason': run.stop_reason or None,
         'bag_finished': run.finished,
         'recovered_from': run.facts.get('recovered_from'),
-        'duration_s': min(float(last), reference.duration),
+        'duration_s': float(np.minimum(last, reference.duration)),
     }
 
 
@@ -130,7 +153,7 @@ def _model(run: RunSeries) -> dict[str, Any] | None:
 
 def _errors(tracking: Tracking) -> dict[str, Any]:
     cross = tracking.cross_track * 1e3
-    heading = np.abs(np.degrees(tracking.heading))
+    heading = np.abs(np.degrees(tracking.heading[np.isfinite(tracking.heading)]))
     return {
         'tracking_error_mm': _distances(tracking),
         'cross_track_mm': {'mean': _mean(cross), 'rms': _rms(cross), 'max': _max(np.abs(cross))},
@@ -159,7 +182,7 @@ def _times(run: RunSeries) -> dict[str, Any]:
         'solve_ms': _tail(times.solve),
         'tick_ms': _tail(times.tick),
         'pose_to_command_ms': _tail(times.pose_to_command),
-        'deadline_misses': times.deadline_misses,
+        'deadline_misses': times.deadline_misses if run.object.stamp.size else None,
     }
 
 

@@ -1,6 +1,6 @@
 """The score of a run as text."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from push_core.common import plain_table
@@ -16,38 +16,61 @@ def score_table(score: Mapping[str, Any]) -> str:
 
 def score_rows(score: Mapping[str, Any]) -> list[Row]:
     """Name and value of each line, with units."""
-    return [
+    rows = [
         ('completed', _verdict(score)),
         ('run', _run(score)),
-        ('model', _model(score['model'])),
-        ('duration', _number(score['duration_s'], 's')),
-        ('tracking error', _figures(score['tracking_error_mm'], 'mm')),
-        ('error of the true pose', _truth(score['truth'])),
-        ('cross-track error', _figures(score['cross_track_mm'], 'mm')),
-        ('heading error', _figures(score['heading_error_deg'], 'deg')),
-        ('solve', _figures(score['solve_ms'], 'ms')),
-        ('tick', _figures(score['tick_ms'], 'ms')),
-        ('pose to command', _figures(score['pose_to_command_ms'], 'ms')),
-        ('deadline misses', str(score['deadline_misses'])),
-        ('holds', str(score['holds'])),
-        ('contact losses', str(score['contact_losses'])),
-        ('limited ticks', _counts(score['limited'])),
+        ('model', _known(score, 'model', _model)),
+        ('duration', _known(score, 'duration_s', _seconds)),
+        ('tracking error', _known(score, 'tracking_error_mm', _millimetres)),
+        ('error of the true pose', _known(score, 'truth', _millimetres)),
+        ('cross-track error', _known(score, 'cross_track_mm', _millimetres)),
+        ('heading error', _known(score, 'heading_error_deg', _degrees)),
+        ('solve', _known(score, 'solve_ms', _milliseconds)),
+        ('tick', _known(score, 'tick_ms', _milliseconds)),
+        ('pose to command', _known(score, 'pose_to_command_ms', _milliseconds)),
+        ('deadline misses', _known(score, 'deadline_misses', str)),
+        ('holds', _known(score, 'holds', str)),
+        ('contact losses', _known(score, 'contact_losses', str)),
+        ('limited ticks', _known(score, 'limited', _counts)),
+        ('left out', _left_out(score['left_out'])),
         ('bag', _bag(score)),
     ]
+    return [row for row in rows if row[1]]
 
 
-def messages_lost(score: Mapping[str, Any]) -> int:
-    """Number of lost messages on all topics."""
-    return sum(counts['lost'] or 0 for counts in score['messages'].values())
+def messages_lost(score: Mapping[str, Any]) -> int | None:
+    """Number of lost messages on all topics; None where it is not known of one of them."""
+    lost = [counts['lost'] for counts in score['messages'].values()]
+    return None if None in lost else sum(lost)
 
 
 def messages_line(score: Mapping[str, Any]) -> str:
     """A line such as `0 of 14130 messages lost`, with the topics that lost messages."""
     topics = score['messages']
+    unknown = [name for name, counts in topics.items() if counts['lost'] is None]
     lost = {name: counts['lost'] for name, counts in topics.items() if counts['lost']}
-    sent = sum(counts['received'] for counts in topics.values()) + sum(lost.values())
+    sent = sum(counts['received'] for name, counts in topics.items() if name not in unknown)
     named = ''.join(f'; {name} {count}' for name, count in lost.items())
-    return f'{sum(lost.values())} of {sent} messages lost{named}'
+    if unknown:
+        named += f'; not known of {", ".join(unknown)}: no sequence numbers'
+    return f'{sum(lost.values())} of {sent + sum(lost.values())} messages lost{named}'
+
+
+def _known(score: Mapping[str, Any], name: str, text: Callable[[Any], str]) -> str:
+    """The text of a figure, or why there is none."""
+    reason = score['reasons'].get(name)
+    return f'none: {reason}' if reason else text(score[name])
+
+
+def _left_out(topics: Mapping[str, Mapping[str, int]]) -> str:
+    """How many poses are not used; empty if all are."""
+    texts = {'not_finite': 'not a number', 'no_heading': 'no unit quaternion or not upright'}
+    return '; '.join(
+        f'{counts[kind]} of {counts["of"]} on {name}: {text}'
+        for name, counts in topics.items()
+        for kind, text in texts.items()
+        if counts[kind]
+    )
 
 
 def _bag(score: Mapping[str, Any]) -> str:
@@ -59,6 +82,8 @@ def _bag(score: Mapping[str, Any]) -> str:
 def _verdict(score: Mapping[str, Any]) -> str:
     if score['completed']:
         return 'yes'
+    if score['completed'] is None:
+        return f'not known: {score["reasons"]["completed"]}'
     return f'no, stopped: {score["stop_reason"]}' if score['stop_reason'] else 'no'
 
 
@@ -70,10 +95,24 @@ def _run(score: Mapping[str, Any]) -> str:
     return ', '.join([word for word in words if word] + seed)
 
 
-def _model(model: Mapping[str, Any] | None) -> str:
-    if model is None:
-        return 'none recorded'
+def _model(model: Mapping[str, Any]) -> str:
     return f'{model["kind"]}, {model["points"]} pushes, {model["hash"][:12]}'
+
+
+def _seconds(value: float) -> str:
+    return f'{value:.2f} s'
+
+
+def _millimetres(figures: Mapping[str, float | None]) -> str:
+    return _figures(figures, 'mm')
+
+
+def _degrees(figures: Mapping[str, float | None]) -> str:
+    return _figures(figures, 'deg')
+
+
+def _milliseconds(figures: Mapping[str, float | None]) -> str:
+    return _figures(figures, 'ms')
 
 
 def _figures(figures: Mapping[str, float | None], unit: str) -> str:
@@ -81,13 +120,9 @@ def _figures(figures: Mapping[str, float | None], unit: str) -> str:
     return '  '.join(named) + f'  {unit}'
 
 
-def _truth(figures: Mapping[str, float | None] | None) -> str:
-    return 'none: the bag holds no ground truth' if figures is None else _figures(figures, 'mm')
-
-
 def _counts(counts: Mapping[str, int]) -> str:
     return ', '.join(f'{count} {name.replace("_", " ")}' for name, count in counts.items())
 
 
-def _number(value: float | None, unit: str = '') -> str:
-    return 'none' if value is None else f'{value:.2f} {unit}'.strip()
+def _number(value: float | None) -> str:
+    return 'none' if value is None else f'{value:.2f}'

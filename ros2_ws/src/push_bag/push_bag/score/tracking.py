@@ -6,7 +6,8 @@ the reference time of its exposure:
     cross-track error = signed distance to the nearest point of the reference path near that time,
         positive to the left of the path; the path is extended by straight lines;
     heading error = heading(t) - reference heading(reference time), wrapped.
-Poses count where 0 < reference time <= the reference's duration.
+Poses count where 0 < reference time <= the reference's duration and the position is a number; the
+heading of a pose may be unknown (NaN).
 """
 
 from dataclasses import dataclass
@@ -34,7 +35,7 @@ class Tracking:
         reference: (n, 3) reference pose at the reference time [m, m, rad].
         distance: (n,) tracking error [m].
         cross_track: (n,) [m].
-        heading: (n,) heading error [rad] in [-pi, pi).
+        heading: (n,) heading error [rad] in [-pi, pi); NaN where the heading is unknown.
         after_start: (n,) whether the pose comes after the first tenth of the reference.
     """
 
@@ -86,7 +87,7 @@ def true_tracking_errors(run: RunSeries, reference: Reference) -> Tracking | Non
 
 
 def _tracking(run: RunSeries, reference: Reference, poses: Stamped) -> Tracking:
-    tracked = during_tracking(run, poses.stamp)
+    tracked = during_tracking(run, poses.stamp) & np.isfinite(poses.values[:, :2]).all(axis=1)
     stamp, pose = poses.stamp[tracked], poses.values[tracked]
     time = reference_times(run, stamp) if stamp.size else np.zeros(0)
     counts = (time > 0.0) & (time <= reference.duration + TIME_ROUNDING)

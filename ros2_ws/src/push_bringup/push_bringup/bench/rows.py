@@ -165,7 +165,7 @@ class RealTimeRow:
             'in_process_mm': in_process,
             'real_time_mm': real_time,
             'ratio': real_time / in_process,
-            'deadline_misses': sum(score['deadline_misses'] for score in self.scores),
+            'deadline_misses': sum(score['deadline_misses'] or 0 for score in self.scores),
         }
 
 
