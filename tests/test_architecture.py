@@ -22,6 +22,7 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recording',
     'push_bag.repair.recover',
     'push_bag.replay.node_comparison',
+    'push_bringup.graph.starter',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',
     'push_gp.training.train',

@@ -29,6 +29,7 @@ setup(
             'bench = push_bringup.commands.bench:main',
             'cell = push_bringup.commands.cell:main',
             'parameters = push_bringup.commands.parameters:main',
+            'start = push_bringup.commands.start:main',
         ],
         'push_bag.recompute': ['cell = push_bringup.in_process.recompute:recomputed'],
     },

@@ -144,6 +144,12 @@ RESET = GraphService(
     'sim_node',
     'puts the plant into an exact state: at rest, command queue empty, random state from the seed',
 )
+RESET_TO_PLAN = GraphService(
+    'push_sim/reset_to_plan',
+    'std_srvs/srv/Trigger',
+    'sim_node',
+    'the same at the start of the newest `nominal_trajectory`, tip in contact; seed of the node',
+)
 PERTURB = GraphService(
     'push_sim/perturb',
     'push_msgs/srv/Perturb',
@@ -181,4 +187,4 @@ RESUME = GraphService(
     'releases a stop',
 )
 
-SERVICES = (RESET, PERTURB, PREDICT, ADD_PUSHES, START, STOP, RESUME)
+SERVICES = (RESET, RESET_TO_PLAN, PERTURB, PREDICT, ADD_PUSHES, START, STOP, RESUME)

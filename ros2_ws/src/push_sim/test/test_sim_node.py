@@ -4,22 +4,23 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.physics.slider import Slider
-from push_msgs.msg import Perturbation
+from push_msgs.msg import GroundTruth, NominalTrajectory, Perturbation
 from push_msgs.srv import Perturb, Reset
 from push_node.ask import ask
-from push_node.qos import COMMAND, EVENT, POSE
+from push_node.qos import COMMAND, EVENT, LATCHED, POSE, STATE
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
 from push_sim.plant.plant import Plant
 from push_sim.settings.profiles import profile
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 pytestmark = pytest.mark.processes
 
@@ -36,14 +37,20 @@ class Client:
         self._spinner = Spinner(self.node)
         self.poses: list[PoseStamped] = []
         self.perturbations: list[Perturbation] = []
+        self.truths: list[GroundTruth] = []
         self.answer: Callable[[PoseStamped], TwistStamped] | None = None
         self._commands = self.node.create_publisher(TwistStamped, 'pusher_velocity_cmd', COMMAND)
         self.node.create_subscription(PoseStamped, 'object_pose', self._on_pose, POSE)
         self.node.create_subscription(
             Perturbation, 'perturbation', self.perturbations.append, EVENT
         )
+        self.node.create_subscription(
+            GroundTruth, 'push_sim/ground_truth', self.truths.append, STATE
+        )
         self._reset = self.node.create_client(Reset, 'push_sim/reset')
         self._perturb = self.node.create_client(Perturb, 'push_sim/perturb')
+        self._reset_to_plan = self.node.create_client(Trigger, 'push_sim/reset_to_plan')
+        self._plans = self.node.create_publisher(NominalTrajectory, 'nominal_trajectory', LATCHED)
 
     def _on_pose(self, message: PoseStamped) -> None:
         self.poses.append(message)
@@ -59,9 +66,16 @@ class Client:
             self._spinner.once()
         return finished()
 
-    def reset(self, seed: int = 5) -> Reset.Response:
-        request = Reset.Request(seed=seed, object_pose=OBJECT_POSE, tip_position=TIP)
+    def reset(self, seed: int = 5, tip: Sequence[float] = TIP) -> Reset.Response:
+        request = Reset.Request(seed=seed, object_pose=OBJECT_POSE, tip_position=tip)
         return self._call(self._reset, request)
+
+    def announce_plan(self, pose: Sequence[float], p_y: float) -> None:
+        x, y, theta = ([value] for value in pose)
+        self._plans.publish(NominalTrajectory(track='line', x=x, y=y, theta=theta, p_y=[p_y]))
+
+    def reset_to_plan(self) -> Trigger.Response:
+        return self._call(self._reset_to_plan, Trigger.Request())
 
     def perturb(self, **request: float) -> Perturb.Response:
         return self._call(self._perturb, Perturb.Request(**request))
@@ -179,6 +193,29 @@ def test_services_refuse_what_cannot_be_done(client, lockstep) -> None:
     assert 'seed' in client.reset(seed=-1).message
     assert 'kind' in client.perturb(kind=9, magnitude=0.01, angle=0.0).message
     assert 'magnitude' in client.perturb(kind=0, magnitude=float('nan'), angle=0.0).message
+
+
+def test_a_reset_puts_no_tip_into_the_object(client, lockstep) -> None:
+    answer = client.reset(tip=OBJECT_POSE[:2])
+    assert not answer.success
+    assert 'mm inside the object; the tip touches it 49.75 mm from its centre' in answer.message
+    assert client.reset().success
+
+
+def test_a_reset_to_the_plan_needs_a_plan_and_touches_the_object_at_its_start(
+    client, lockstep
+) -> None:
+    refused = client.reset_to_plan()
+    assert not refused.success
+    assert 'no plan on nominal_trajectory' in refused.message
+    pose, p_y = [0.3, 0.1, -0.4], 0.01
+    client.announce_plan(pose, p_y)
+    client.wait(lambda: client.reset_to_plan().success)
+    client.truths.clear()
+    client.wait(lambda: len(client.truths) >= 3)
+    truth = client.truths[-1]
+    assert truth.pose == pytest.approx(pose, abs=1e-6)
+    assert (truth.p_y, truth.gap) == pytest.approx((p_y, 0.0), abs=1e-6)
 
 
 def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it() -> None:

@@ -3,28 +3,22 @@
 import math
 import time
 from collections.abc import Callable
-from typing import Any
 
-import numpy as np
 import rclpy
 from push_core.common import RunError
-from push_core.physics import Slider
 from push_msgs.msg import ControllerState, NominalTrajectory
-from push_msgs.srv import Reset
 from push_node import interface
-from push_node.ask import READY_TIMEOUT, ask
+from push_node.ask import READY_TIMEOUT
 from push_node.spin import Spinner, stop_on_signals
-from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
-from std_srvs.srv import Trigger
 from tqdm import tqdm
 
 from push_bringup.graph.processes import Processes
+from push_bringup.graph.starter import Starter
 
 STALL_TIMEOUT = 10.0  # [s] without a tick
-RETRY_PERIOD = 0.1  # [s] between two attempts to start
 _STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
 
 
@@ -43,19 +37,15 @@ class Conductor:
         interface.NOMINAL_TRAJECTORY.subscription(self._node, self._on_plan)
         interface.CONTROLLER_STATE.subscription(self._node, self._on_state)
         self._end = interface.RUN_END.publisher(self._node)
-        self._reset = interface.RESET.client(self._node)
-        self._start = interface.START.client(self._node)
+        self._starter = Starter(self._node, self._wait_for)
 
     def close(self) -> None:
         """Leaves the graph."""
         self._node.destroy_node()
         rclpy.try_shutdown()
 
-    def run(self, seed: int) -> str:
+    def run(self) -> str:
         """One run.
-
-        Args:
-            seed: of the plant.
 
         Returns:
             Reason of an early end, else an empty string; it is also published for the recorder.
@@ -64,13 +54,13 @@ class Conductor:
             KeyboardInterrupt: a stop was requested.
         """
         try:
-            reason = self._run(seed)
+            reason = self._run()
         except RunError as error:
             reason = str(error)
         self._end.publish(String(data=reason))
         return reason
 
-    def _run(self, seed: int) -> str:
+    def _run(self) -> str:
         """Reason of an early stop of the controller, else an empty string.
 
         Raises:
@@ -78,27 +68,8 @@ class Conductor:
             KeyboardInterrupt: a stop was requested.
         """
         self._wait(lambda: self._plan is not None, READY_TIMEOUT, 'no plan from mpc_node')
-        self._reset_plant(seed)
-        self._start_when_ready()
+        self._starter.start()
         return self._watch()
-
-    def _reset_plant(self, seed: int) -> None:
-        plan = self._plan
-        assert plan is not None
-        pose = np.array([plan.x[0], plan.y[0], plan.theta[0]])
-        slider = Slider(side=plan.side, tip_radius=plan.tip_radius)
-        tip = slider.tip_position(pose, plan.p_y[0])
-        request = Reset.Request(seed=seed, object_pose=pose, tip_position=tip)
-        answer = self._call(self._reset, request)
-        if not answer.success:
-            raise RunError(f'the plant refused to reset: {answer.message}')
-
-    def _start_when_ready(self) -> None:
-        deadline = time.monotonic() + READY_TIMEOUT
-        while not (answer := self._call(self._start, Trigger.Request())).success:
-            if time.monotonic() > deadline:
-                raise RunError(f'the cell did not become ready: {answer.message}')
-            self._wait_for(lambda: False, RETRY_PERIOD)
 
     def _watch(self) -> str:
         assert self._plan is not None
@@ -123,12 +94,6 @@ class Conductor:
     def _on_state(self, message: ControllerState) -> None:
         self._state = message
         self._last_tick = time.monotonic()
-
-    def _call(self, client: Client, request: object) -> Any:
-        answer = ask(client, request, self._wait_for)
-        if answer is None:
-            raise RunError(f'no answer from {client.srv_name}')
-        return answer
 
     def _wait(self, finished: Callable[[], bool], timeout: float, complaint: str) -> None:
         if not self._wait_for(finished, timeout):

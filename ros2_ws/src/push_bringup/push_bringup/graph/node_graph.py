@@ -17,7 +17,7 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 
     Args:
         params: resolved parameter file.
-        request: gives namespace and seed.
+        request: gives the namespace.
         logs: folder for the output of the nodes.
 
     Returns:
@@ -37,7 +37,7 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
 
         conductor = Conductor(request.namespace, processes)
         try:
-            return conductor.run(request.seed)
+            return conductor.run()
         finally:
             _stop_in_order(processes)
             conductor.close()

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from geometry_msgs.msg import TwistStamped
 from push_core.common import InputError, PushError
+from push_msgs.msg import NominalTrajectory
 from push_msgs.srv import Perturb, Reset
 from push_node import interface
 from push_node.diagnostics import Reporter
@@ -13,6 +14,7 @@ from push_node.realtime import enter_realtime
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.node import Node
+from std_srvs.srv import Trigger
 
 from push_sim.node.conversions import (
     GroundTruthMessage,
@@ -44,11 +46,14 @@ class SimNode(Node):  # type: ignore[misc]
         )
         self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
+        self._plan: NominalTrajectory | None = None
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)
         self._pace.restart(self._start())
         interface.PUSHER_VELOCITY_CMD.subscription(self, self._on_command)
+        interface.NOMINAL_TRAJECTORY.subscription(self, self._on_plan)
         interface.RESET.service(self, self._on_reset)
+        interface.RESET_TO_PLAN.service(self, self._on_reset_to_plan)
         interface.PERTURB.service(self, self._on_perturb)
         self.create_timer(_SCENE_PERIOD, self._publish_scene)
         self.create_timer(_HEALTH_PERIOD, self._report)
@@ -100,6 +105,25 @@ class SimNode(Node):  # type: ignore[misc]
             response.message = str(error)
             return response
         response.success, response.message = True, 'at rest'
+        return response
+
+    def _on_plan(self, message: NominalTrajectory) -> None:
+        self._plan = message
+
+    def _on_reset_to_plan(
+        self, _request: Trigger.Request, response: Trigger.Response
+    ) -> Trigger.Response:
+        plan, topic = self._plan, interface.NOMINAL_TRAJECTORY.name
+        if plan is None or not plan.x:
+            response.message = f'no plan on {topic} yet; is mpc_node running?'
+            return response
+        pose = np.array([plan.x[0], plan.y[0], plan.theta[0]])
+        tip = self._slider.tip_position(pose, plan.p_y[0])
+        reset = Reset.Request(object_pose=pose, tip_position=tip, seed=self._settings.seed)
+        answer = self._on_reset(reset, Reset.Response())
+        response.success, response.message = answer.success, answer.message
+        if answer.success:
+            response.message = f'at rest at the start of {plan.track}, tip in contact'
         return response
 
     def _on_perturb(

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 from push_core.common import InputError
-from push_core.geometry import Array, to_world
+from push_core.geometry import Array, to_body, to_world
 from push_core.physics import Slider
 
 from push_sim.plant.driver import Driver
@@ -22,6 +22,7 @@ from push_sim.worlds import make_world
 from push_sim.worlds.common import Outline
 
 _NANOSECOND = 1e-9
+_TOUCHING = 1e-4  # [m]; positions that are measured or typed in are no better
 _NOT_COPIED = ('_settings', '_world')
 
 
@@ -74,9 +75,11 @@ class Plant:
             The first observation, of the object at rest.
 
         Raises:
-            InputError: a value is not finite, or the seed is negative.
+            InputError: a value is not finite, the seed is negative, or the tip is inside the
+                object.
         """
         _check_start(object_pose, tip_position, seed)
+        _check_overlap(self.slider, object_pose, tip_position)
         self._ticks = 0
         self._world.reset(self._placed(object_pose, tip_position), tip_position, seed)
         random = np.random.default_rng(seed)
@@ -221,6 +224,16 @@ class Plant:
         due = self._schedule.due(self.time)
         if due is not None:
             self.perturb(due)
+
+
+def _check_overlap(slider: Slider, object_pose: Array, tip_position: Array) -> None:
+    x, y = to_body(object_pose, tip_position).tolist()
+    depth = -Outline(slider.side, slider.tip_radius).gap(x, y)
+    if depth > _TOUCHING:
+        raise InputError(
+            f'a reset would put the tip {1e3 * depth:.1f} mm inside the object; the tip touches '
+            f'it {1e3 * -slider.tip_x:.2f} mm from its centre'
+        )
 
 
 def _check_start(object_pose: Array, tip_position: Array, seed: int) -> None:
