@@ -54,10 +54,11 @@ update_clone() {
   git -C "$1" checkout --quiet --force --detach "${commit:-$(git -C "$root" rev-parse HEAD)}"
 }
 
-# outcome_of TARGET CLONE PYTHON: in a few words; all that it wrote is in CLONE.TARGET.log.
+# outcome_of TARGET CLONE PYTHON: in a few words; all that it wrote is in CLONE.TARGET.log. What is
+# started in the background ignores SIGINT, which the tests send.
 outcome_of() {
   local word=passed begin=$SECONDS
-  PYTHON=$3 make -C "$2" "$1" > "$2.$1.log" 2>&1 < /dev/null || word="failed ($2.$1.log)"
+  PYTHON=$3 env --default-signal=INT make -C "$2" "$1" > "$2.$1.log" 2>&1 < /dev/null || word="failed ($2.$1.log)"
   printf '%s in %d s' "$word" $((SECONDS - begin))
 }
 

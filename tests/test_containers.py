@@ -16,6 +16,8 @@ from cell_command import HANG
 ROOT = Path(__file__).parents[1]
 SERVICES = yaml.safe_load((ROOT / 'docker/compose.yaml').read_text())['services']
 CHOICES = {'CONTROLLER': 'analytical', 'MODEL': 'analytical', 'TRACK': 'line', 'SPEED': '0.1'}
+# as in a container; what is started in the background ignores SIGINT, and so do its children
+HEARING = ('env', '--default-signal=INT')
 NODES = ('recorder', 'sim', 'gp', 'mpc')
 
 
@@ -38,7 +40,7 @@ def nodes(environment: dict[str, str]) -> Iterator[dict[str, 'subprocess.Popen[b
     patient = {'mpc': ['-p', 'pose_loss:=10.0']}
     for name in NODES:
         command = [*filled(SERVICES[name]['command'], environment), *patient.get(name, [])]
-        started[name] = subprocess.Popen(command, cwd=ROOT, env=environment)
+        started[name] = subprocess.Popen([*HEARING, *command], cwd=ROOT, env=environment)
         wait_until_healthy(name, environment)
     yield started
     for process in started.values():
