@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
@@ -22,6 +22,8 @@ from push_node.stamps import to_stamp
 from rclpy.serialization import serialize_message
 
 from push_bag.file import qos_text
+from push_bag.robot_csv.lost_rows import lost_rows
+from push_bag.robot_csv.reference_line import ReferenceLine
 from push_bag.run import Floats
 
 START_NS = 1_000_000_000  # stamp of the first row
@@ -38,10 +40,30 @@ def topics() -> list[tuple[str, str, str]]:
     return [(each.absolute_name, each.type_name, qos_text(each.qos)) for each in WRITTEN]
 
 
-def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
-    """Topic, bytes and stamp [ns] of every message, in order of time."""
-    yield NOMINAL_TRAJECTORY.absolute_name, serialize_message(_reference(run, slider)), START_NS
-    velocity, progress = _commanded_velocity(run), _progress(run)
+class RobotMessage(NamedTuple):
+    """A serialized message: topic, bytes, stamp [ns] and the number by its publisher."""
+
+    topic: str
+    data: bytes
+    stamp: int
+    sequence: int
+
+
+def messages(run: RobotRun, slider: Slider, line: ReferenceLine) -> Iterator[RobotMessage]:
+    """Every message in order of time; the numbers skip rows that are missing.
+
+    Args:
+        run: the measured run.
+        slider: the object and the tip.
+        line: that the run followed.
+    """
+    plan = serialize_message(_reference(run, slider, line))
+    yield RobotMessage(NOMINAL_TRAJECTORY.absolute_name, plan, START_NS, 1)
+    velocity, progress = _commanded_velocity(run), _progress(run, line)
+    numbers = 1 + np.arange(len(run.time)) + np.cumsum(lost_rows(run.time))
+    targets = np.column_stack(
+        [line.points(progress), np.full(len(run.time), line.heading), np.zeros(len(run.time))]
+    )
     for row, time in enumerate(run.time.tolist()):
         stamp = START_NS + round(time * 1e9)
         last = row == len(run.time) - 1
@@ -49,10 +71,11 @@ def messages(run: RobotRun, slider: Slider) -> Iterator[tuple[str, bytes, int]]:
             (OBJECT_POSE, _pose_message(run.pose[row])),
             (PUSHER_POSE, _pose_message(np.array([*run.tip[row], 0.0]))),
             (PUSHER_VELOCITY_CMD, _velocity_message(velocity[row])),
-            (CONTROLLER_STATE, _state(run, slider, row, progress[row], last)),
+            (CONTROLLER_STATE, _state(run, slider, row, targets[row], last)),
         ):
             message.header.frame_id, message.header.stamp = 'world', to_stamp(stamp)
-            yield topic.absolute_name, serialize_message(message), stamp
+            data, number = serialize_message(message), int(numbers[row])
+            yield RobotMessage(topic.absolute_name, data, stamp, number)
 
 
 def _commanded_velocity(run: RobotRun) -> Floats:
@@ -65,9 +88,9 @@ def _commanded_velocity(run: RobotRun) -> Floats:
     return np.asarray((ahead - behind) / SLOPE_TIME)
 
 
-def _progress(run: RobotRun) -> Floats:
-    """Distance (n,) [m] of the object along the x axis; it never decreases."""
-    return np.asarray(np.maximum.accumulate(run.pose[:, 0]))
+def _progress(run: RobotRun, line: ReferenceLine) -> Floats:
+    """Distance (n,) [m] of the object along the line; it never decreases."""
+    return np.asarray(np.maximum.accumulate(line.along(run.pose[:, :2])))
 
 
 def _pose_message(pose: Floats) -> Any:
@@ -83,7 +106,7 @@ def _velocity_message(velocity: Floats) -> Any:
     return message
 
 
-def _state(run: RobotRun, slider: Slider, row: int, progress: float, last: bool) -> Any:
+def _state(run: RobotRun, slider: Slider, row: int, reference: Floats, last: bool) -> Any:
     pose, tip = run.pose[row], run.tip[row]
     state = np.array([*pose, slider.contact_offset(pose, tip)])
     message = ControllerState(
@@ -94,7 +117,7 @@ def _state(run: RobotRun, slider: Slider, row: int, progress: float, last: bool)
         now=UNKNOWN,
         state=state,
         predicted=state,
-        reference=np.array([progress, 0.0, 0.0, 0.0]),
+        reference=reference,
         gap=float(slider.gap(pose, tip)),
         solve_ms=UNKNOWN,
         tick_ms=UNKNOWN,
@@ -103,22 +126,23 @@ def _state(run: RobotRun, slider: Slider, row: int, progress: float, last: bool)
     return message
 
 
-def _reference(run: RobotRun, slider: Slider) -> Any:
-    """The reference: the x axis, timed by the object's own progress."""
+def _reference(run: RobotRun, slider: Slider, line: ReferenceLine) -> Any:
+    """The reference: the line, timed by the object's own progress."""
     count = len(run.time)
     time = np.linspace(0.0, run.time[-1], count)
-    x = np.interp(time, run.time, _progress(run))
-    zero = np.zeros(count)
+    along = np.interp(time, run.time, _progress(run, line))
+    points, zero = line.points(along), np.zeros(count)
     message = NominalTrajectory(
         track=Path(run.name).stem,
         controller='robot',
-        speed=float((x[-1] - x[0]) / time[-1]),
+        speed=float((along[-1] - along[0]) / time[-1]),
         side=slider.side,
         tip_radius=slider.tip_radius,
         laps=1,
     )
     message.header.frame_id, message.header.stamp = 'world', to_stamp(START_NS)
-    message.time, message.x, message.y = time.tolist(), x.tolist(), zero.tolist()
-    message.theta = message.p_y = message.v_t = zero.tolist()
-    message.v_n = np.gradient(x, time).tolist()
+    message.time, message.theta = time.tolist(), np.full(count, line.heading).tolist()
+    message.x, message.y = points[:, 0].tolist(), points[:, 1].tolist()
+    message.p_y = message.v_t = zero.tolist()
+    message.v_n = np.gradient(along, time).tolist()
     return message
