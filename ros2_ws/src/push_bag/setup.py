@@ -31,6 +31,7 @@ setup(
             'info = push_bag.commands.info:main',
             'replay = push_bag.commands.replay:main',
             'live = push_bag.commands.live:main',
+            'markers = push_bag.commands.markers:main',
             'recover = push_bag.repair.recover:main',
             'export = push_bag.commands.export:main',
             'import-csv = push_bag.commands.import_csv:main',

@@ -107,6 +107,14 @@ SCENE_MARKERS = GraphTopic(
     ('sim_node',),
     'object and tip for a viewer',
 )
+PLAN_MARKERS = GraphTopic(
+    'plan_markers',
+    'visualization_msgs/msg/MarkerArray',
+    LATCHED,
+    '20 Hz',
+    ('markers',),
+    'reference and horizon for RViz; `rviz:=true` starts the node',
+)
 DIAGNOSTICS = GraphTopic(
     '/diagnostics',
     'diagnostic_msgs/msg/DiagnosticArray',
@@ -135,6 +143,7 @@ CLOCK = GraphTopic(
 TOPICS = (
     *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD, NOMINAL_TRAJECTORY, CONTROLLER_STATE),
     *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, GROUND_TRUTH, RUN_END, SCENE_MARKERS),
+    PLAN_MARKERS,
     *(DIAGNOSTICS, TRANSFORMS, CLOCK),
 )
 

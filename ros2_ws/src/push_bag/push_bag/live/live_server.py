@@ -12,7 +12,7 @@ from foxglove.websocket import ServerListener
 from push_core.common import RunError
 
 from push_bag.file import schema_text
-from push_bag.live.horizon_marker import HORIZON_TYPE, MARKER_TYPE, horizon_marker
+from push_bag.live.horizon_marker import HORIZON_TYPE, MARKER_TYPE, serialized_marker
 
 
 class LiveServer(ServerListener):
@@ -79,7 +79,7 @@ class LiveServer(ServerListener):
             self._latched[name] = data
         self._channels[name].log(data, log_time=log_ns)
         if name in self._lines:
-            self._lines[name].log(horizon_marker(data), log_time=log_ns)
+            self._lines[name].log(serialized_marker(data), log_time=log_ns)
 
     def flush(self) -> None:
         """Does nothing: messages are sent at once."""
