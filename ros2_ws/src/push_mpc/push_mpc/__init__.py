@@ -1,4 +1,4 @@
-"""The controllers: nominal plan, tabulated model, delay predictor, tracking quadratic program."""
+"""The controllers: nominal plan, tabulated model, delay predictor, tracking QP."""
 
 from typing import TYPE_CHECKING
 

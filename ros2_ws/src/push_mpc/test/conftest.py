@@ -175,7 +175,7 @@ def unrolled() -> Callable[..., tuple[Array, Array]]:
 
 @pytest.fixture
 def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, ...], Solution]]:
-    """Fills with the problems (in SI units) that any program solves, and with the solutions."""
+    """Collects the problems (in SI units) that every `TrackingQP` solves, and the solutions."""
     problems: list[tuple[tuple[Any, ...], Solution]] = []
     prepared: dict[TrackingQP, tuple[Any, ...]] = {}
     prepare, solve = TrackingQP.prepare, TrackingQP.solve
@@ -188,13 +188,13 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
         prepare(self, stages, window, first)
 
     def keep_solution(
-        self: TrackingQP, start: Array, opening: float, disturbance: Array, before: Array
+        self: TrackingQP, start: Array, widening: float, disturbance: Array, before: Array
     ) -> Solution:
-        solution = solve(self, start, opening, disturbance, before)
+        solution = solve(self, start, widening, disturbance, before)
         solution = replace(solution, inputs=solution.inputs.copy())
         a, b, drift, target, limits = prepared[self]
         under = drift @ [1.0, *disturbance], target @ disturbance
-        problems.append(((a, b, *under, limits, start.copy(), opening, before), solution))
+        problems.append(((a, b, *under, limits, start.copy(), widening, before), solution))
         return solution
 
     monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
@@ -221,7 +221,7 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         target: Array,
         limits: tuple[Array, Array],
         start: Array,
-        opening: float,
+        widening: float,
         before: Array,
     ) -> Array:
         free, forced = unrolled(transition, effect, drift, start)
@@ -239,8 +239,8 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         low, high = (
             np.concatenate([limit[:, 0], limit[:, 1:].ravel()]) - shift for limit in limits
         )
-        low[:steps] -= opening
-        high[:steps] += opening
+        low[:steps] -= widening
+        high[:steps] += widening
         sides = np.vstack([rows, -rows]), np.concatenate([high, -low])
         bounded = np.isfinite(sides[1])
         settings = clarabel.DefaultSettings()

@@ -28,7 +28,7 @@ CHANGE_WEIGHTS = WEIGHTS.change * SPEEDS**2
 
 @pytest.fixture
 def recorded(make_cell, recorded_problems):
-    """Problems of each program in 150 ticks with kicks, and the solutions."""
+    """Problems of each QP in 150 ticks with kicks, and the solutions."""
     cell = make_cell(SETTINGS)
     cell.controller.arm()
     kicks = {
@@ -44,7 +44,7 @@ def recorded(make_cell, recorded_problems):
     return recorded_problems
 
 
-def test_each_program_finds_the_first_input_of_the_other_solver(
+def test_each_qp_finds_the_first_input_of_the_other_solver(
     recorded, slider, independent_inputs
 ) -> None:
     friction, speed = slider.friction_pusher, ContactForce(slider).tip_velocity
@@ -77,12 +77,12 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     family, plan = steering
     stride = horizon_stride(plan, SETTINGS)
     window = stride * np.arange(SETTINGS.horizon_steps)
-    programs = family.programs(None, plan, stride)
-    family.prepare(programs, window)
+    linearised = family.linearised(None, plan, stride)
+    family.prepare(linearised, window)
     deviation = np.array([0.0, 0.0, 0.0, p_y])
     state = plan.state[0] + deviation
     sent = plan.input[0]
-    move = family.solve(programs, state, deviation, 0.0, 0.0, np.zeros(3), sent)
+    move = family.solve(linearised, state, deviation, 0.0, 0.0, np.zeros(3), sent)
     assert (move.usable, family.mode) == (True, expected)
     force = ContactForce(slider).of_velocity(np.array([p_y]), move.velocity[None])[0]
     assert np.sign(np.round(force[2], 6)) == expected
@@ -90,7 +90,7 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
 
 def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     family, plan = steering
-    stages = family.programs(None, plan, 3).stages
+    stages = family.linearised(None, plan, 3).stages
     assert len(stages) == len(FAMILY) == 3
     assert all(np.array_equal(other.entries, stages[0].entries) for other in stages)
     widths = [stage.high[0] - stage.low[0] for stage in stages]
@@ -105,10 +105,10 @@ def test_the_tip_is_never_faster_than_the_limit_wherever_it_touches(slider, p_y)
     for limit in (2.0, 0.1):
         family = ForceSteering(replace(SETTINGS, normal_speed_limit=limit), slider)
         stride = horizon_stride(plan, SETTINGS)
-        programs = family.programs(None, plan, stride)
-        family.prepare(programs, stride * np.arange(SETTINGS.horizon_steps))
+        linearised = family.linearised(None, plan, stride)
+        family.prepare(linearised, stride * np.arange(SETTINGS.horizon_steps))
         state, sent = plan.state[0] + behind, plan.input[0]
-        move = family.solve(programs, state, behind, 0.0, 0.0, np.zeros(3), sent)
+        move = family.solve(linearised, state, behind, 0.0, 0.0, np.zeros(3), sent)
         assert move.usable
         speeds.append(move.velocity[0])
     free, bounded = speeds

@@ -1,4 +1,4 @@
-"""The quadratic program, against one built anew in SI units and solved by another solver."""
+"""The QP, against one that is built independently in SI units and solved by another solver."""
 
 from types import SimpleNamespace
 
@@ -73,12 +73,12 @@ def stages_of(problem):
     return Stages.of(SPACE, preview, problem[4])
 
 
-def solved(problem, times=1, opening=0.0):
+def solved(problem, times=1, widening=0.0):
     qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
     made = stages_of(problem)
     for _ in range(times):
         qp.prepare(made, np.arange(6), made)
-        solution = qp.solve(problem[5], opening, DISTURBANCE, BEFORE)
+        solution = qp.solve(problem[5], widening, DISTURBANCE, BEFORE)
     return solution
 
 
@@ -121,7 +121,7 @@ def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened
     far_off = np.full((6, 3), [0.5, 0.0, 0.0]), np.full((6, 3), [0.6, 0.0, 0.0])
     impossible = (*problem[:4], far_off, problem[5])
     assert not solved(impossible).usable
-    assert solved(impossible, opening=0.6).usable
+    assert solved(impossible, widening=0.6).usable
 
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:

@@ -3,7 +3,7 @@
 from push_mpc.qp.force_steering import ForceSteering
 from push_mpc.qp.planned_states import PlannedStates
 from push_mpc.qp.stages import NX
-from push_mpc.qp.steering import Programs, Steering
+from push_mpc.qp.steering import LinearisedPlan, Steering
 from push_mpc.qp.tracking_qp import OSQP_SETTINGS, Problem
 from push_mpc.qp.velocity_steering import VelocitySteering
 
@@ -11,9 +11,9 @@ __all__ = [
     'NX',
     'OSQP_SETTINGS',
     'ForceSteering',
+    'LinearisedPlan',
     'PlannedStates',
     'Problem',
-    'Programs',
     'Steering',
     'VelocitySteering',
 ]

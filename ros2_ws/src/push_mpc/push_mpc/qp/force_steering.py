@@ -1,8 +1,9 @@
 """The analytical controller: the Family of Modes over [f_n, f_t, slip].
 
-Hogan and Rodriguez 2016, section 5. A contact sticks, slides left or slides right, and each mode
-has linear constraints of its own. Three programs are solved in every tick: the contact sticks all
-along, or slides one way in the first stage and sticks from then on. The cheapest one wins.
+A contact sticks, slides left or slides right, and each mode has linear constraints of its own.
+Three QPs are solved in every tick: the contact sticks in all stages, or it slides left or right in
+the first stage and sticks in the others. The solution with the lowest cost is used. Source: Hogan
+and Rodriguez 2016, section 5.
 """
 
 from dataclasses import replace
@@ -15,7 +16,7 @@ from push_mpc.motion import ContactForce, TravelModel
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
-from push_mpc.qp.steering import Move, Programs
+from push_mpc.qp.steering import LinearisedPlan, Move
 from push_mpc.qp.tracking_qp import Solution, TrackingQP
 from push_mpc.settings import ControllerSettings
 
@@ -25,10 +26,10 @@ _SPEED = 1e-2  # [m/s]; the solver's unit of the slip, and of the speed that a f
 
 
 class ForceSteering:
-    """See `Steering`; the programs are those of `FAMILY`.
+    """See `Steering`; one QP for each mode of `FAMILY`.
 
     Attributes:
-        mode: in the first stage of the latest solution.
+        mode: contact mode in the first stage of the latest solution.
     """
 
     solvers: tuple[TrackingQP, ...]
@@ -52,33 +53,33 @@ class ForceSteering:
             for _ in FAMILY
         )
 
-    def programs(self, _model: TravelModel, plan: Plan, stride: int) -> Programs:
-        """See `Steering.programs`; the limit surface is the slider's, whatever the model."""
+    def linearised(self, _model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
+        """See `Steering.linearised`; the limit surface is the slider's, whatever the model."""
         forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
         preview = Preview.of(forces, self._motion, stride)
         stages = [Stages.of(self._space, preview, self._limits(preview, mode)) for mode in FAMILY]
-        return Programs(forces, tuple(stages))
+        return LinearisedPlan(forces, tuple(stages))
 
-    def prepare(self, programs: Programs, window: Array) -> None:
+    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """See `Steering.prepare`."""
-        sticking = programs.stages[0]
-        for program, first in zip(self.solvers, programs.stages, strict=True):
-            program.prepare(sticking, window, first)
+        sticking = linearised.stages[0]
+        for solver, first in zip(self.solvers, linearised.stages, strict=True):
+            solver.prepare(sticking, window, first)
 
     def solve(
         self,
-        programs: Programs,
+        linearised: LinearisedPlan,
         state: Array,
         deviation: Array,
         time: float,
-        opening: float,
+        widening: float,
         disturbance: Array,
         sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        nominal = programs.plan.at(time)[1]
+        nominal = linearised.plan.at(time)[1]
         before = self._motion.input_of(state[3], *sent.tolist()) - nominal
-        solutions = [each.solve(deviation, opening, disturbance, before) for each in self.solvers]
+        solutions = [each.solve(deviation, widening, disturbance, before) for each in self.solvers]
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
         velocity = self._within_limit(
             self._motion.tip_velocity(state[3], nominal + best.inputs[0])

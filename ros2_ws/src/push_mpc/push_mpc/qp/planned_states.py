@@ -1,4 +1,4 @@
-"""The states that the programs of one tick plan, written down only when somebody wants them."""
+"""The planned states of one tick, computed only when they are published."""
 
 from dataclasses import dataclass
 
@@ -11,12 +11,12 @@ from push_mpc.qp.stages import STATE_SCALE
 
 @dataclass(frozen=True)
 class PlannedStates:
-    """The horizon of one tick; good until the next one is prepared.
+    """The planned states over the horizon; valid until the next tick is prepared.
 
     Attributes:
-        plan: about which was planned.
-        samples: of the plan, one for each planned state (N + 1,).
-        deviations: from them, as the solver sees them (N + 1, 4).
+        plan: the nominal.
+        samples: indices into the plan, one for each planned state (N + 1,).
+        deviations: of the planned states from these samples (N + 1, 4), in the solver's units.
     """
 
     plan: Plan
@@ -24,11 +24,11 @@ class PlannedStates:
     deviations: Array
 
     def write(self, states: Array, scratch: Array) -> None:
-        """Writes the states (N + 1, 4) [m, m, rad, m]; makes no array of its own.
+        """Writes the states (N + 1, 4) [m, m, rad, m] without allocating.
 
         Args:
-            states: filled.
-            scratch: of the same shape, spoilt.
+            states: receives the states.
+            scratch: array of the same shape, overwritten.
         """
         np.take(self.plan.state, self.samples, axis=0, out=scratch, mode='clip')
         np.multiply(self.deviations, STATE_SCALE, out=states)

@@ -1,7 +1,8 @@
-"""The numbers of the quadratic program at every sample of a plan, as the solver wants them.
+"""The numbers of the QP's stages at every sample of a plan, in the units of the solver.
 
-Made once for each plan and model, so that a tick only copies its window. The solver sees
-millimetres, hundredths of a radian and, at the usual speeds, inputs of about one.
+Computed once for each plan and model, so that a tick only copies the stages of its horizon. The
+solver's units are millimetres, hundredths of a radian, and units in which inputs at the usual
+speeds are about one.
 """
 
 from dataclasses import dataclass
@@ -14,19 +15,20 @@ from push_mpc.qp.preview import Preview
 
 NX = 4
 STATE_SCALE = np.array([1e-3, 1e-3, 1e-2, 1e-3])
-# where a transition can differ from 0: the world position enters no rate
+# entries of A that can differ from 0: no rate depends on the world position
 A_PATTERN = np.array([[1, 0, 1, 1], [0, 1, 1, 1], [0, 0, 1, 1], [0, 0, 0, 1]], dtype=bool)
 _A_ENTRIES = int(A_PATTERN.sum())
 
 
 @dataclass(frozen=True)
 class InputSpace:
-    """What a controller chooses in every stage, and what of it is limited.
+    """The inputs of a stage and their linear constraints.
 
     Attributes:
-        scale: unit in which the solver sees each input (m,).
-        limited: the limited combinations of the inputs, in the solver's units (k, m).
-        limited_scale: unit in which the solver sees each combination (k,).
+        scale: the solver's unit of each input (m,).
+        limited: rows are the linear combinations of inputs that have bounds (k, m), in the
+            solver's units.
+        limited_scale: the solver's unit of each combination (k,).
     """
 
     scale: Array
@@ -40,27 +42,28 @@ class InputSpace:
 
     @property
     def entries(self) -> int:
-        """Numbers that describe the dynamics of one stage."""
+        """How many entries of A and B one stage has."""
         return _A_ENTRIES + NX * self.size
 
     @property
     def rows_scale(self) -> Array:
-        """Units of the limited numbers of one stage: the next p_y, then the inputs' (1 + k,)."""
+        """The solver's units (1 + k,) of what has bounds in a stage: next p_y, combinations."""
         return np.concatenate([STATE_SCALE[3:], self.limited_scale])
 
 
 @dataclass(frozen=True)
 class Stages:
-    """Stages of the horizon, one for each sample at which it can have one; all scaled.
+    """A stage of the horizon for each sample of the plan, in the solver's units.
 
     Attributes:
         space: the inputs.
-        entries: of -A by pattern, then of -B (n, entries of the space).
-        drift: how the nominal itself misses the model's motion, then what a disturbance adds
-            to that (n, 4, 1 + 3).
-        target: where the best state and input are under a disturbance (n, 4 + m, 3).
-        low: lowest deviation of p_y after the stage, of the limited inputs in it (n, 1 + k).
-        high: highest ones (n, 1 + k).
+        entries: of -A where `A_PATTERN` is set, then of -B (n, entries of the space).
+        drift: (n, 4, 1 + 3); column 0: error of the nominal under the model's equations of
+            motion; columns 1 to 3: its derivative by the disturbance.
+        target: derivative of the target state and input by the disturbance (n, 4 + m, 3).
+        low: lower bounds (n, 1 + k) on the deviation of p_y after the stage and of the limited
+            combinations in it.
+        high: upper bounds (n, 1 + k).
     """
 
     space: InputSpace
@@ -77,13 +80,13 @@ class Stages:
         preview: Preview,
         limits: tuple[Array, Array],
     ) -> 'Stages':
-        """Scales the stages.
+        """Converts linearised dynamics and bounds to the solver's units.
 
         Args:
             space: the inputs.
             preview: the linearised dynamics along the plan.
-            limits: lowest and highest deviation of p_y [m] and of the limited combinations of
-                the inputs, each (n, 1 + k).
+            limits: lower and upper bounds on the deviation of p_y [m] and of the limited
+                combinations of the inputs, each (n, 1 + k).
 
         Raises:
             InputError: the model moves the object beyond all bounds.
@@ -101,7 +104,7 @@ class Stages:
         return len(self.entries)
 
     def in_si_units(self, window: Array) -> tuple[Array, Array, Array, Array, tuple[Array, Array]]:
-        """What `of` was given after the space, for the stages (N,) of a window."""
+        """A, B, drift, target and limits in SI units, for the stages (N,) of a window."""
         transition = np.zeros((len(window), NX, NX))
         transition[:, A_PATTERN] = -self.entries[window, :_A_ENTRIES]
         effect = -self.entries[window, _A_ENTRIES:].reshape(-1, NX, self.space.size)

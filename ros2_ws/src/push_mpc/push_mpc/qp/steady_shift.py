@@ -1,31 +1,33 @@
-"""Where the plan has to give way so that a constant disturbance leaves the object on its path."""
+"""Shift of the QP's target that keeps the object on its path under a constant disturbance."""
 
 import numpy as np
 from push_core.common import InputError
 from push_core.geometry import Array
 
-# a turn [rad] weighs like 30 mm of displacement; where the contact goes matters least
+# weights of the rates: 1 rad counts like 30 mm; the rate of p_y matters least
 _WORTH = np.array([1.0, 1.0, 0.03, 0.1])
-_EASE = np.array([0.1, 0.005])  # [rad], [m]: changes of theta and p_y of equal worth
-_INPUT_EASE = 0.25  # of the nominal speed
+_EASE = np.array([0.1, 0.005])  # [rad], [m]; changes of theta and p_y that cost the same
+_INPUT_EASE = 0.25  # of the nominal speed; a change of the input that costs the same
 _DAMPING = 1e-4
 
 
 def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
     """The smallest change of state and input that keeps the planned rates under a disturbance.
 
-    A contact that sticks or slides cannot reach all four rates: hence damped least squares.
+    The planned rates cannot always be kept exactly, since a contact that sticks or slides does not
+    reach all four rates. Hence damped least squares.
 
     Args:
         by_state: derivative of the rates by the state (n, 4, 4).
         by_input: by the input (n, 4, m).
-        by_twist: by a twist for each metre of travel (n, 4, 3).
+        by_twist: by the disturbance, a twist per metre of travel (n, 4, 3).
 
     Returns:
-        Change (n, 4 + m, 3) of the state, whose position stays, and of the input.
+        Derivative (n, 4 + m, 3) of the change of state and input by the disturbance; the position
+        does not change.
 
     Raises:
-        InputError: the model's motion is too far from any object's.
+        InputError: the model's displacement rates are implausibly large.
     """
     speed = by_twist[:, 2, 2]
     worth = _WORTH[:, None] / speed[:, None, None]

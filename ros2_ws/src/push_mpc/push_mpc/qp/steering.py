@@ -1,7 +1,8 @@
-"""What a controller steers by: the programs of one tick, behind one seam.
+"""Interface of the controllers: from the deviation of a tick to a tip velocity, by one QP or more.
 
-There are two, those of the paper: `VelocitySteering` chooses the tip's velocity by a model of the
-object's displacement, `ForceSteering` the contact's force and mode by its limit surface.
+There are two, those of the paper: `VelocitySteering` optimises the velocity of the tip, with a
+model of the object's displacement. `ForceSteering` (the Family of Modes) optimises contact force
+and contact mode, with the limit surface of the object.
 """
 
 from dataclasses import dataclass
@@ -16,12 +17,12 @@ from push_mpc.qp.tracking_qp import TrackingQP
 
 
 @dataclass(frozen=True)
-class Programs:
-    """What the solvers are given along one plan.
+class LinearisedPlan:
+    """The QP data along one plan; computed once for each plan and model.
 
     Attributes:
-        plan: with the inputs that the programs choose.
-        stages: of each program.
+        plan: its inputs are those of the QPs: tip velocities, or contact forces and slip.
+        stages: linearised stages along the plan, for each QP of the controller.
     """
 
     plan: Plan
@@ -30,12 +31,12 @@ class Programs:
 
 @dataclass(frozen=True)
 class Move:
-    """What the programs of one tick found.
+    """Result of one tick.
 
     Attributes:
         velocity: of the tip in the body frame (2,) [m/s].
         status: of the solver, 1 = solved.
-        iterations: that it took, of all programs.
+        iterations: of the solver, summed over the QPs.
         usable: whether the velocity may be sent.
         states: planned deviations of the states, see `Solution`.
     """
@@ -48,38 +49,41 @@ class Move:
 
 
 class Steering(Protocol):
-    """The programs of one tick.
+    """Solves the QPs of a tick.
 
     Attributes:
-        solvers: of each program.
+        solvers: one for each QP.
     """
 
     solvers: tuple[TrackingQP, ...]
 
-    def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
-        """The programs about a plan, in stages of `stride` samples; needs no solver."""
+    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
+        """Linearises a model along a plan, in stages of `stride` samples.
 
-    def prepare(self, programs: Programs, window: Array) -> None:
-        """Puts in what is known before the state is, for a window (N,) of the stages."""
+        Does not touch the solvers, so it may run in another thread.
+        """
+
+    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
+        """Loads the stages (N,) of the next horizon into the solvers, before the poses arrive."""
 
     def solve(
         self,
-        programs: Programs,
+        linearised: LinearisedPlan,
         state: Array,
         deviation: Array,
         time: float,
-        opening: float,
+        widening: float,
         disturbance: Array,
         sent: Array,
     ) -> Move:
-        """Solves the prepared programs.
+        """Solves the prepared QPs.
 
         Args:
-            programs: those that were prepared.
-            state: where the tip's velocity will act (4,).
-            deviation: from the nominal (4,) [m, m, rad, m].
+            linearised: the plan of which `prepare` loaded a window.
+            state: predicted state (4,) at the time when the command acts.
+            deviation: of that state from the nominal (4,) [m, m, rad, m].
             time: of the plan [s].
-            opening: by how much the bounds of p_y are wider than prepared [m].
-            disturbance: twist beside the model's for each metre of travel (3,).
-            sent: velocity of the tip that was sent last, in the body frame (2,) [m/s].
+            widening: added to the bounds of p_y on both sides [m].
+            disturbance: model error, a twist per metre of travel (3,) [1, 1, rad/m].
+            sent: last command, in the body frame (2,) [m/s].
         """

@@ -1,15 +1,16 @@
-"""The quadratic program of one tick: build once, prepare, solve.
+"""The QP of one tick: set up once, then prepare and solve in every tick.
 
     min  sum_i  (x_i - g_i)^T Q (x_i - g_i) + (u_i - h_i)^T R (u_i - h_i)
          + (u_0 - b)^T S (u_0 - b)
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
          bounds on p_y of every state but the first, and on combinations of each u_i
 
-in deviations from the nominal; c, g and h are linear in the disturbance, b is the input sent last:
-without S the inputs of two ticks may differ by all that their noise does. OSQP sees the problem in
-millimetres and with its cost divided by the largest weight: so scaled, its tail is an order of
-magnitude shorter than in SI units, and its own scaling only costs time. It ends within 2e-4 m/s of
-an independent solver's input; polishing would take a third of the time to find the rest.
+in deviations from the nominal. c, g and h are linear in the disturbance; b is the last command. S
+penalises the change from that command, which follows the measurement noise otherwise. OSQP gets
+the problem in millimetres, with the cost divided by the largest weight. With this scaling its
+longest solve times are an order of magnitude shorter than in SI units, and its own scaling only
+takes time. The first input is within 2e-4 m/s of that of an independent solver; polishing would
+remove this difference for a third more time.
 """
 
 from dataclasses import dataclass
@@ -42,14 +43,14 @@ OSQP_SETTINGS = {
 
 @dataclass(frozen=True)
 class Solution:
-    """What the solver found.
+    """Solution of the QP; its arrays are valid until the next solve.
 
     Attributes:
-        inputs: deviations of the inputs from the nominal (N, m); good until the next solve.
-        states: those of the states (N + 1, 4), in the solver's units; good until the next solve.
+        inputs: deviations of the inputs from the nominal (N, m).
+        states: deviations of the states (N + 1, 4), in the solver's units.
         cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
-        iterations: that it took.
+        iterations: of the solver.
         residual: largest violation of a constraint, in the solver's units.
     """
 
@@ -64,8 +65,8 @@ class Solution:
     def usable(self) -> bool:
         """Whether the inputs are finite and keep the constraints.
 
-        At the iteration limit the inputs may be short of the optimum, but not of the dynamics
-        and the bounds: the residual of an infeasible problem stays large.
+        At the iteration limit the inputs may be suboptimal, but must satisfy dynamics and bounds:
+        the residual of an infeasible problem stays large.
         """
         unfinished = self.status == _ITERATION_LIMIT and self.residual <= _LARGEST_RESIDUAL
         usable = unfinished or self.status in _SOLVED_STATUS
@@ -74,10 +75,10 @@ class Solution:
 
 @dataclass(frozen=True)
 class Problem:
-    """One program with numbers: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
+    """The QP of one tick: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
 
-    The variables are the states (4 (N + 1) of them), then the inputs; the rows the dynamics, one
-    for each state, then the limits. All in the solver's units.
+    The variables z are the states, 4 (N + 1) of them, then the inputs. The rows are the dynamics,
+    one for each state, then the limits.
 
     Attributes:
         cost: diagonal of the quadratic part (n,).
@@ -85,8 +86,8 @@ class Problem:
         matrix: constraints (rows, n).
         low: lower bounds (rows,).
         high: upper bounds (rows,).
-        states: how many variables, and rows, come before the inputs and the limits.
-        units: of the variables (n,), of the rows (rows,), of the cost.
+        states: number of states, which is also the number of rows of the dynamics.
+        units: SI values of the units of the variables (n,), of the rows (rows,) and of the cost.
     """
 
     cost: Array
@@ -98,7 +99,7 @@ class Problem:
     units: tuple[Array, Array, float]
 
     def in_si_units(self) -> 'Problem':
-        """The same program, as it is written down."""
+        """The same problem in SI units."""
         variables, rows, cost = self.units
         matrix = sparse.csc_matrix(
             sparse.diags_array(rows) @ self.matrix @ sparse.diags_array(1.0 / variables)
@@ -117,7 +118,7 @@ class Problem:
 
 
 class TrackingQP:
-    """One solver with a fixed sparsity; only numbers change from tick to tick."""
+    """A QP of fixed sparsity and its OSQP solver; only numbers change from tick to tick."""
 
     def __init__(
         self,
@@ -155,7 +156,7 @@ class TrackingQP:
         self._first_inputs(self._cost)[:] += self._change
         self._linear = np.zeros(self._size)
         self._disturbance = np.ones(4)
-        self._opening = 0.0
+        self._widening = 0.0
         self._solver = osqp.OSQP()
         self._solver.setup(
             sparse.csc_matrix(sparse.diags_array(self._cost)),
@@ -167,14 +168,14 @@ class TrackingQP:
         )
 
     def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
-        """Puts in what is known before the state is: the greater part of a tick's work.
+        """Loads everything that does not depend on the state: most of the work of a tick.
 
-        Copies, and makes nothing anew.
+        Copies into arrays that exist; allocates none.
 
         Args:
-            stages: those of the plan.
-            window: which of them the horizon has, (N,).
-            first: whose limits hold in the first stage.
+            stages: of the whole plan.
+            window: indices (N,) of those in the horizon.
+            first: its limits replace those of the first stage.
         """
         np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
         self._matrix.data[self._places] = self._entries
@@ -184,26 +185,26 @@ class TrackingQP:
         np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
         self._limited(self._low)[0] = first.low[window[0]]
         self._limited(self._high)[0] = first.high[window[0]]
-        self._opening = 0.0
+        self._widening = 0.0
         self._solver.update(Ax=self._matrix.data)
 
-    def solve(self, start: Array, opening: float, disturbance: Array, before: Array) -> Solution:
-        """Solves the prepared problem, warm-started by the one before.
+    def solve(self, start: Array, widening: float, disturbance: Array, before: Array) -> Solution:
+        """Solves the prepared problem, warm-started with the last solution.
 
         Args:
             start: deviation x_0 (4,) from the nominal [m, m, rad, m].
-            opening: by how much the bounds of p_y are wider than prepared [m].
-            disturbance: twist beside the model's for each metre of travel (3,).
-            before: the input sent last, less the nominal one of now (m,).
+            widening: added to the bounds of p_y on both sides [m].
+            disturbance: model error, a twist per metre of travel (3,) [1, 1, rad/m].
+            before: b, the last command minus the present nominal input (m,).
         """
         self._disturb(disturbance)
         self._first_inputs(self._linear)[:] -= self._change * (before / self._space.scale)
         np.divide(start, STATE_SCALE, out=self._low[:NX])
         self._high[:NX] = self._low[:NX]
-        wider = (opening - self._opening) / STATE_SCALE[3]
+        wider = (widening - self._widening) / STATE_SCALE[3]
         self._limited(self._low)[:, 0] -= wider
         self._limited(self._high)[:, 0] += wider
-        self._opening = opening
+        self._widening = widening
         self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
         inputs = result.x[self._states :].reshape(self.steps, -1)
@@ -221,7 +222,7 @@ class TrackingQP:
 
     @property
     def problem(self) -> Problem:
-        """The program that was solved last, copied."""
+        """A copy of the problem that was solved last."""
         steps, space = self.steps, self._space
         variables = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.scale, steps)])
         rows = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.rows_scale, steps)])
@@ -237,13 +238,13 @@ class TrackingQP:
         )
 
     def _disturb(self, disturbance: Array) -> None:
-        """Sets the drift, and the cost's linear part to where the best state and input are."""
+        """Sets the drift c, and the linear part of the cost from the targets g and h."""
         self._disturbance[1:] = disturbance
         drift = self._low[NX : self._states].reshape(-1, NX)
         np.matmul(self._drift, self._disturbance, out=drift)
         self._high[NX : self._states] = self._low[NX : self._states]
         np.matmul(self._targets, disturbance, out=self._aims)
-        # the state of each stage, then that of the end, which has the last one's target
+        # the final state has the target of the last stage
         aims = self._linear[: self._states].reshape(-1, NX)
         aims[:-1] = self._aims[:, :NX]
         aims[-1] = self._aims[-1, :NX]
@@ -252,7 +253,7 @@ class TrackingQP:
         np.negative(self._linear, out=self._linear)
 
     def _first_inputs(self, variables: Array) -> Array:
-        """Those of the first stage, as a view (m,)."""
+        """The entries of the first stage's inputs, as a view (m,)."""
         return variables[self._states : self._states + self._space.size]
 
     def _limited(self, bounds: Array) -> Array:
@@ -290,7 +291,7 @@ class TrackingQP:
         return matrix
 
     def _entry_places(self) -> Array:
-        """Where in the matrix data the entries of a `Stages` stand, (N, entries)."""
+        """Index (N, entries) into the matrix data of the entries of each stage."""
         step = np.arange(self.steps)[:, None]
         a_row, a_column = np.nonzero(A_PATTERN)
         inputs = self._space.size

@@ -1,6 +1,7 @@
-"""The data-driven controller: one program over the tip's velocity [v_n, v_t].
+"""The data-driven controller: one QP over the tip's velocity [v_n, v_t].
 
-Bauza, Hogan and Rodriguez 2018, section 4, for any model of the object's displacement.
+Works with any model of the object's displacement. Source: Bauza, Hogan and Rodriguez 2018,
+section 4.
 """
 
 import numpy as np
@@ -11,7 +12,7 @@ from push_mpc.motion import TravelModel, TravelMotion
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
-from push_mpc.qp.steering import Move, Programs
+from push_mpc.qp.steering import LinearisedPlan, Move
 from push_mpc.qp.tracking_qp import TrackingQP
 from push_mpc.settings import ControllerSettings
 
@@ -35,30 +36,30 @@ class VelocitySteering:
         )
         self.solvers = (solver,)
 
-    def programs(self, model: TravelModel, plan: Plan, stride: int) -> Programs:
-        """See `Steering.programs`."""
+    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
+        """See `Steering.linearised`."""
         motion = TravelMotion(model, self._slider.tip_x)
         preview = Preview.of(plan, motion, stride)
-        return Programs(plan, (Stages.of(SPACE, preview, self._limits(preview)),))
+        return LinearisedPlan(plan, (Stages.of(SPACE, preview, self._limits(preview)),))
 
-    def prepare(self, programs: Programs, window: Array) -> None:
+    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """See `Steering.prepare`."""
-        (stages,) = programs.stages
+        (stages,) = linearised.stages
         self.solvers[0].prepare(stages, window, stages)
 
     def solve(
         self,
-        programs: Programs,
+        linearised: LinearisedPlan,
         _state: Array,
         deviation: Array,
         time: float,
-        opening: float,
+        widening: float,
         disturbance: Array,
         sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        nominal = programs.plan.at(time)[1]
-        solution = self.solvers[0].solve(deviation, opening, disturbance, sent - nominal)
+        nominal = linearised.plan.at(time)[1]
+        solution = self.solvers[0].solve(deviation, widening, disturbance, sent - nominal)
         velocity = nominal + solution.inputs[0]
         return Move(
             velocity, solution.status, solution.iterations, solution.usable, solution.states
