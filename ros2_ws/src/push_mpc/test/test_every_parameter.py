@@ -14,7 +14,7 @@ from push_mpc.plan.planning import planned
 from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.table.surrogate import Table
 
-# those of the node alone; test_mpc_node.py and test_planning.py show what they do
+# those of the node alone; test_mpc_node.py, test_pose_gate.py and test_planning.py cover them
 OF_THE_NODE = {'profile', 'preset', 'mode', 'pose_timeout', 'pose_loss', 'require_recorder'}
 USUAL = replaced(
     mpc_settings('irb120'),
@@ -30,7 +30,11 @@ OTHER = {
     'laps': 2,
     'good_poses': 4,
 }
-NAMES = sorted(set(flatten(USUAL)) - OF_THE_NODE - {'controller'})
+NAMES = sorted(
+    name
+    for name in set(flatten(USUAL)) - OF_THE_NODE - {'controller'}
+    if not name.startswith('poses.')
+)
 CONTROLLERS = ('gp', 'analytical')
 TICKS = 90
 
