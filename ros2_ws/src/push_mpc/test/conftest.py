@@ -175,11 +175,7 @@ def unrolled() -> Callable[..., tuple[Array, Array]]:
 
 @pytest.fixture
 def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, ...], Solution]]:
-<<<<<<< HEAD
     """Collects the problems (in SI units) that every `TrackingQP` solves, and the solutions."""
-=======
-    """Fills with the problems (in SI units) that any QP solves, and with the solutions."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     problems: list[tuple[tuple[Any, ...], Solution]] = []
     prepared: dict[TrackingQP, tuple[Any, ...]] = {}
     prepare, solve = TrackingQP.prepare, TrackingQP.solve
@@ -192,7 +188,6 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
         prepare(self, stages, window, first)
 
     def keep_solution(
-<<<<<<< HEAD
         self: TrackingQP, start: Array, widening: float, disturbance: Array, before: Array
     ) -> Solution:
         solution = solve(self, start, widening, disturbance, before)
@@ -200,15 +195,6 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
         a, b, drift, target, limits = prepared[self]
         under = drift @ [1.0, *disturbance], target @ disturbance
         problems.append(((a, b, *under, limits, start.copy(), widening, before), solution))
-=======
-        self: TrackingQP, start: Array, face_slack: float, disturbance: Array, before: Array
-    ) -> Solution:
-        solution = solve(self, start, face_slack, disturbance, before)
-        solution = replace(solution, inputs=solution.inputs.copy())
-        a, b, drift, target, limits = prepared[self]
-        under = drift @ [1.0, *disturbance], target @ disturbance
-        problems.append(((a, b, *under, limits, start.copy(), face_slack, before), solution))
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         return solution
 
     monkeypatch.setattr(TrackingQP, 'prepare', keep_problem)
@@ -235,11 +221,7 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         target: Array,
         limits: tuple[Array, Array],
         start: Array,
-<<<<<<< HEAD
         widening: float,
-=======
-        face_slack: float,
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         before: Array,
     ) -> Array:
         free, forced = unrolled(transition, effect, drift, start)
@@ -257,13 +239,8 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         low, high = (
             np.concatenate([limit[:, 0], limit[:, 1:].ravel()]) - shift for limit in limits
         )
-<<<<<<< HEAD
         low[:steps] -= widening
         high[:steps] += widening
-=======
-        low[:steps] -= face_slack
-        high[:steps] += face_slack
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         sides = np.vstack([rows, -rows]), np.concatenate([high, -low])
         bounded = np.isfinite(sides[1])
         settings = clarabel.DefaultSettings()

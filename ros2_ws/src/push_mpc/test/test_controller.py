@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from push_mpc.loop.controller import Controller, Mode, horizon_stride
 from push_mpc.plan.planning import planned
-from push_mpc.qp.steering import SteeringResult
+from push_mpc.qp.steering import Move
 from push_mpc.settings.node_settings import mpc_settings
 
 SETTINGS = mpc_settings('irb120')
@@ -101,7 +101,7 @@ def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
 
 
 def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
-    nothing = SteeringResult(np.full(2, np.nan), 3, 7, usable=False, states=np.empty((36, 4)))
+    nothing = Move(np.full(2, np.nan), 3, 7, usable=False, states=np.empty((36, 4)))
     monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
     tick = tracking.tick()
     assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)

@@ -77,21 +77,12 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     family, plan = steering
     stride = horizon_stride(plan, SETTINGS)
     window = stride * np.arange(SETTINGS.horizon_steps)
-<<<<<<< HEAD
     linearised = family.linearised(None, plan, stride)
     family.prepare(linearised, window)
     deviation = np.array([0.0, 0.0, 0.0, p_y])
     state = plan.state[0] + deviation
     sent = plan.input[0]
     move = family.solve(linearised, state, deviation, 0.0, 0.0, np.zeros(3), sent)
-=======
-    qps = family.prepared_qps(None, plan, stride)
-    family.prepare(qps, window)
-    deviation = np.array([0.0, 0.0, 0.0, p_y])
-    state = plan.state[0] + deviation
-    sent = plan.input[0]
-    move = family.solve(qps, state, deviation, 0.0, 0.0, np.zeros(3), sent)
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     assert (move.usable, family.mode) == (True, expected)
     force = ContactForce(slider).of_velocity(np.array([p_y]), move.velocity[None])[0]
     assert np.sign(np.round(force[2], 6)) == expected
@@ -99,11 +90,7 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
 
 def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     family, plan = steering
-<<<<<<< HEAD
     stages = family.linearised(None, plan, 3).stages
-=======
-    stages = family.prepared_qps(None, plan, 3).stages
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     assert len(stages) == len(FAMILY) == 3
     assert all(np.array_equal(other.entries, stages[0].entries) for other in stages)
     widths = [stage.high[0] - stage.low[0] for stage in stages]
@@ -118,17 +105,10 @@ def test_the_tip_is_never_faster_than_the_limit_wherever_it_touches(slider, p_y)
     for limit in (2.0, 0.1):
         family = ForceSteering(replace(SETTINGS, normal_speed_limit=limit), slider)
         stride = horizon_stride(plan, SETTINGS)
-<<<<<<< HEAD
         linearised = family.linearised(None, plan, stride)
         family.prepare(linearised, stride * np.arange(SETTINGS.horizon_steps))
         state, sent = plan.state[0] + behind, plan.input[0]
         move = family.solve(linearised, state, behind, 0.0, 0.0, np.zeros(3), sent)
-=======
-        qps = family.prepared_qps(None, plan, stride)
-        family.prepare(qps, stride * np.arange(SETTINGS.horizon_steps))
-        state, sent = plan.state[0] + behind, plan.input[0]
-        move = family.solve(qps, state, behind, 0.0, 0.0, np.zeros(3), sent)
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         assert move.usable
         speeds.append(move.velocity[0])
     free, bounded = speeds

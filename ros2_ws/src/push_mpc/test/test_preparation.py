@@ -45,11 +45,7 @@ def test_the_process_gives_what_the_controller_itself_would_give(
     found = preparation.prepare(other, 'other')
     assert found.model_id == 'other'
     np.testing.assert_array_equal(found.plan.state, expected.plan.state)
-<<<<<<< HEAD
     (ours,), (theirs,) = expected.linearised.stages, found.linearised.stages
-=======
-    (ours,), (theirs,) = expected.qps.stages, found.qps.stages
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     for name in ('entries', 'drift', 'target', 'low', 'high'):
         np.testing.assert_array_equal(getattr(theirs, name), getattr(ours, name))
     assert found.table.rate(0.01, 1.2) == other.rate(0.01, 1.2)

@@ -1,8 +1,4 @@
-<<<<<<< HEAD
 """The QP, against one that is built independently in SI units and solved by another solver."""
-=======
-"""The QP, against one built anew in SI units and solved by another solver."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
 from types import SimpleNamespace
 
@@ -77,20 +73,12 @@ def stages_of(problem):
     return Stages.of(SPACE, preview, problem[4])
 
 
-<<<<<<< HEAD
 def solved(problem, times=1, widening=0.0):
-=======
-def solved(problem, times=1, face_slack=0.0):
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
     made = stages_of(problem)
     for _ in range(times):
         qp.prepare(made, np.arange(6), made)
-<<<<<<< HEAD
         solution = qp.solve(problem[5], widening, DISTURBANCE, BEFORE)
-=======
-        solution = qp.solve(problem[5], face_slack, DISTURBANCE, BEFORE)
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     return solution
 
 
@@ -133,11 +121,7 @@ def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened
     far_off = np.full((6, 3), [0.5, 0.0, 0.0]), np.full((6, 3), [0.6, 0.0, 0.0])
     impossible = (*problem[:4], far_off, problem[5])
     assert not solved(impossible).usable
-<<<<<<< HEAD
     assert solved(impossible, widening=0.6).usable
-=======
-    assert solved(impossible, face_slack=0.6).usable
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:

@@ -13,11 +13,7 @@ from push_mpc.estimate import DisturbanceEstimator, Predictor
 from push_mpc.loop.tick import FOLLOWING, Mode, Tick
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Plan, consistent_plan
-<<<<<<< HEAD
 from push_mpc.qp import LinearisedPlan, PlannedStates, Problem, Steering
-=======
-from push_mpc.qp import PlannedStates, PreparedQps, Problem, Steering
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
@@ -31,11 +27,7 @@ class PreparedModel:
 
     table: Table
     plan: Plan
-<<<<<<< HEAD
     linearised: LinearisedPlan
-=======
-    qps: PreparedQps
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     model_id: str
 
 
@@ -80,13 +72,8 @@ class Controller:
         plan = self.plan
         if self.settings.consistent_plan:
             plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
-<<<<<<< HEAD
         linearised = self._steering.linearised(table, plan, self._stride)
         return PreparedModel(table, plan, linearised, model_id)
-=======
-        qps = self._steering.prepared_qps(table, plan, self._stride)
-        return PreparedModel(table, plan, qps, model_id)
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""
@@ -228,7 +215,6 @@ class Controller:
         deviation[2] = wrap_angle(deviation[2])
         self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
         # a tip that is already past the end of the face must not make the QP infeasible
-<<<<<<< HEAD
         widening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
         move = self._steering.solve(
             model.linearised,
@@ -236,15 +222,6 @@ class Controller:
             deviation,
             reference_time,
             widening,
-=======
-        face_slack = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        move = self._steering.solve(
-            model.qps,
-            state,
-            deviation,
-            reference_time,
-            face_slack,
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
             self._disturbance.rate,
             rotation(state[2]).T @ self._sent,
         )
@@ -269,11 +246,7 @@ class Controller:
             return
         # the horizon stays at the plan's last sample
         np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._samples)
-<<<<<<< HEAD
         self._steering.prepare(model.linearised, self._samples[:-1])
-=======
-        self._steering.prepare(model.qps, self._samples[:-1])
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:

@@ -3,11 +3,7 @@
 from push_mpc.qp.force_steering import ForceSteering
 from push_mpc.qp.planned_states import PlannedStates
 from push_mpc.qp.stages import NX
-<<<<<<< HEAD
 from push_mpc.qp.steering import LinearisedPlan, Steering
-=======
-from push_mpc.qp.steering import PreparedQps, Steering
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 from push_mpc.qp.tracking_qp import OSQP_SETTINGS, Problem
 from push_mpc.qp.velocity_steering import VelocitySteering
 
@@ -17,7 +13,6 @@ __all__ = [
     'ForceSteering',
     'LinearisedPlan',
     'PlannedStates',
-    'PreparedQps',
     'Problem',
     'Steering',
     'VelocitySteering',

@@ -1,15 +1,9 @@
 """The analytical controller: the Family of Modes over [f_n, f_t, slip].
 
-<<<<<<< HEAD
 A contact sticks, slides left or slides right, and each mode has linear constraints of its own.
 Three QPs are solved in every tick: the contact sticks in all stages, or it slides left or right in
 the first stage and sticks in the others. The solution with the lowest cost is used. Source: Hogan
 and Rodriguez 2016, section 5.
-=======
-Hogan and Rodriguez 2016, section 5. A contact sticks, slides left or slides right, and each mode
-has linear constraints of its own. Three QPs are solved in every tick: the contact sticks in all
-stages, or slides one way in the first stage and sticks afterwards. The cheapest one is used.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 """
 
 from dataclasses import replace
@@ -22,11 +16,7 @@ from push_mpc.motion import ContactForce, TravelModel
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
-<<<<<<< HEAD
 from push_mpc.qp.steering import LinearisedPlan, Move
-=======
-from push_mpc.qp.steering import PreparedQps, SteeringResult
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 from push_mpc.qp.tracking_qp import Solution, TrackingQP
 from push_mpc.settings import ControllerSettings
 
@@ -63,7 +53,6 @@ class ForceSteering:
             for _ in FAMILY
         )
 
-<<<<<<< HEAD
     def linearised(self, _model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
         """See `Steering.linearised`; the limit surface is the slider's, whatever the model."""
         forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
@@ -75,57 +64,28 @@ class ForceSteering:
         """See `Steering.prepare`."""
         sticking = linearised.stages[0]
         for solver, first in zip(self.solvers, linearised.stages, strict=True):
-=======
-    def prepared_qps(self, _model: TravelModel, plan: Plan, stride: int) -> PreparedQps:
-        """See `Steering.prepared_qps`; the limit surface is the slider's, whatever the model."""
-        forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
-        preview = Preview.of(forces, self._motion, stride)
-        stages = [Stages.of(self._space, preview, self._limits(preview, mode)) for mode in FAMILY]
-        return PreparedQps(forces, tuple(stages))
-
-    def prepare(self, qps: PreparedQps, window: Array) -> None:
-        """See `Steering.prepare`."""
-        sticking = qps.stages[0]
-        for solver, first in zip(self.solvers, qps.stages, strict=True):
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
             solver.prepare(sticking, window, first)
 
     def solve(
         self,
-<<<<<<< HEAD
         linearised: LinearisedPlan,
         state: Array,
         deviation: Array,
         time: float,
         widening: float,
-=======
-        qps: PreparedQps,
-        state: Array,
-        deviation: Array,
-        time: float,
-        face_slack: float,
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         disturbance: Array,
         sent: Array,
-    ) -> SteeringResult:
+    ) -> Move:
         """See `Steering.solve`."""
-<<<<<<< HEAD
         nominal = linearised.plan.at(time)[1]
         before = self._motion.input_of(state[3], *sent.tolist()) - nominal
         solutions = [each.solve(deviation, widening, disturbance, before) for each in self.solvers]
-=======
-        nominal = qps.plan.at(time)[1]
-        before = self._motion.input_of(state[3], *sent.tolist()) - nominal
-        solutions = [
-            each.solve(deviation, face_slack, disturbance, before) for each in self.solvers
-        ]
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
         velocity = self._within_limit(
             self._motion.tip_velocity(state[3], nominal + best.inputs[0])
         )
         iterations = sum(solution.iterations for solution in solutions)
-        return SteeringResult(velocity, best.status, iterations, best.usable, best.states)
+        return Move(velocity, best.status, iterations, best.usable, best.states)
 
     def _within_limit(self, velocity: Array) -> Array:
         """A tip velocity (2,) slowed down to the largest v_n.
@@ -136,7 +96,7 @@ class ForceSteering:
         return velocity / max(1.0, float(velocity[0]) / self._settings.normal_speed_limit)
 
     def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
-        """Lowest and highest deviations (n, 5) of p_y and the input combinations."""
+        """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
         slider = self._motion.slider
         nominal = np.column_stack([preview.contact, preview.input @ _limited(slider).T])
         slip = self._settings.tangential_speed_limit

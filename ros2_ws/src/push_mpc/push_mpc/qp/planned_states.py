@@ -1,8 +1,4 @@
-<<<<<<< HEAD
 """The planned states of one tick, computed only when they are published."""
-=======
-"""The predicted states of one tick, computed only when they are published."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
 from dataclasses import dataclass
 
@@ -15,21 +11,12 @@ from push_mpc.qp.stages import STATE_SCALE
 
 @dataclass(frozen=True)
 class PlannedStates:
-<<<<<<< HEAD
     """The planned states over the horizon; valid until the next tick is prepared.
 
     Attributes:
         plan: the nominal.
         samples: indices into the plan, one for each planned state (N + 1,).
         deviations: of the planned states from these samples (N + 1, 4), in the solver's units.
-=======
-    """The predicted horizon of one tick; valid until the next one is prepared.
-
-    Attributes:
-        plan: about which the QP is linearised.
-        samples: of the plan, one per predicted state (N + 1,).
-        deviations: from the plan, in the solver's units (N + 1, 4).
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     """
 
     plan: Plan
@@ -40,13 +27,8 @@ class PlannedStates:
         """Writes the states (N + 1, 4) [m, m, rad, m] without allocating.
 
         Args:
-<<<<<<< HEAD
             states: receives the states.
             scratch: array of the same shape, overwritten.
-=======
-            states: output.
-            scratch: of the same shape, overwritten.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         """
         np.take(self.plan.state, self.samples, axis=0, out=scratch, mode='clip')
         np.multiply(self.deviations, STATE_SCALE, out=states)

@@ -17,18 +17,11 @@ class Preview:
     Attributes:
         transition: A (n, 4, 4).
         effect: B (n, 4, m).
-<<<<<<< HEAD
         drift: (n, 4, 1 + 3); column 0: motion of the model along the plan minus that of the
             plan; columns 1 to 3: its derivative by the disturbance, a model error as a twist per
             metre of travel.
         target: (n, 4 + m, 3) change of state and input that keeps the object on the path, as a
             derivative by the disturbance; see `steady_shift`.
-=======
-        drift: (n, 4, 1 + 3): column 0: motion of the model along the plan minus that of the plan;
-            columns 1 to 3: its derivative by the model error (twist per metre of travel).
-        target: (n, 4 + m, 3): derivative by the model error of the shift of state and input
-            that keeps the object on the path.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         input: nominal input at the start of the step (n, m).
         contact: nominal p_y at the end of the step (n,) [m].
     """
@@ -45,11 +38,7 @@ class Preview:
         """Linearises a motion about a plan."""
         by_state, by_input = motion.linearised(plan.state, plan.input)
         by_twist = motion.disturbed(plan.state, plan.input)
-<<<<<<< HEAD
         # the error of the plan acts like one more input that is always 1
-=======
-        # the defect of the plan acts like one more input that is always 1
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None], by_twist], axis=-1)
         transition, effect = discretised(by_state, inputs, stride, plan.period)
         index = np.arange(len(plan.state))
@@ -66,10 +55,6 @@ class Preview:
 
 
 def _missed(plan: Plan, motion: Motion) -> Array:
-<<<<<<< HEAD
     """Rates of the model at the nominal minus those of the plan, (n, 4)."""
-=======
-    """Rates of the model along the nominal minus those of the plan (n, 4)."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     rates = motion.rates(plan.state, plan.input)
     return np.asarray(rates - np.gradient(plan.state, plan.period, axis=0))

@@ -1,15 +1,8 @@
-<<<<<<< HEAD
 """The numbers of the QP's stages at every sample of a plan, in the units of the solver.
 
 Computed once for each plan and model, so that a tick only copies the stages of its horizon. The
 solver's units are millimetres, hundredths of a radian, and units in which inputs at the usual
 speeds are about one.
-=======
-"""The data of the QP at every sample of a plan, in the solver's units.
-
-Computed once per plan and model; a tick only copies its window. The solver's units are
-millimetres, hundredths of a radian and, at the usual speeds, inputs of order one.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 """
 
 from dataclasses import dataclass
@@ -29,20 +22,12 @@ _A_ENTRIES = int(A_PATTERN.sum())
 
 @dataclass(frozen=True)
 class InputSpace:
-<<<<<<< HEAD
     """The inputs of a stage and their linear constraints.
 
     Attributes:
         scale: the solver's unit of each input (m,).
         limited: rows are the linear combinations of inputs that have bounds (k, m), in the
             solver's units.
-=======
-    """The inputs of a stage and their limited combinations.
-
-    Attributes:
-        scale: the solver's unit of each input (m,).
-        limited: the limited combinations of the inputs, in the solver's units (k, m).
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         limited_scale: the solver's unit of each combination (k,).
     """
 
@@ -57,26 +42,17 @@ class InputSpace:
 
     @property
     def entries(self) -> int:
-<<<<<<< HEAD
         """How many entries of A and B one stage has."""
-=======
-        """Number of entries of A and B of one stage."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         return _A_ENTRIES + NX * self.size
 
     @property
     def rows_scale(self) -> Array:
-<<<<<<< HEAD
         """The solver's units (1 + k,) of what has bounds in a stage: next p_y, combinations."""
-=======
-        """Units of the limited quantities of one stage: next p_y, input combinations (1 + k,)."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         return np.concatenate([STATE_SCALE[3:], self.limited_scale])
 
 
 @dataclass(frozen=True)
 class Stages:
-<<<<<<< HEAD
     """A stage of the horizon for each sample of the plan, in the solver's units.
 
     Attributes:
@@ -88,18 +64,6 @@ class Stages:
         low: lower bounds (n, 1 + k) on the deviation of p_y after the stage and of the limited
             combinations in it.
         high: upper bounds (n, 1 + k).
-=======
-    """One stage for each sample of the plan, in the solver's units.
-
-    Attributes:
-        space: the inputs.
-        entries: of -A by pattern, then of -B (n, entries of the space).
-        drift: column 0: defect of the nominal under the model; columns 1 to 3: its derivative
-            by the model error (n, 4, 1 + 3).
-        target: derivative of the steady state and input by the model error (n, 4 + m, 3).
-        low: lowest deviation of p_y after the stage, of the limited inputs in it (n, 1 + k).
-        high: highest ones (n, 1 + k).
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     """
 
     space: InputSpace
@@ -125,7 +89,7 @@ class Stages:
                 combinations of the inputs, each (n, 1 + k).
 
         Raises:
-            InputError: the model's rates are implausibly large.
+            InputError: the model moves the object beyond all bounds.
         """
         a = preview.transition * (STATE_SCALE / STATE_SCALE[:, None])
         b = preview.effect * (space.scale / STATE_SCALE[:, None])
@@ -140,11 +104,7 @@ class Stages:
         return len(self.entries)
 
     def in_si_units(self, window: Array) -> tuple[Array, Array, Array, Array, tuple[Array, Array]]:
-<<<<<<< HEAD
         """A, B, drift, target and limits in SI units, for the stages (N,) of a window."""
-=======
-        """A, B, drift, target and limits (low, high) in SI units, for a window (N,) of stages."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         transition = np.zeros((len(window), NX, NX))
         transition[:, A_PATTERN] = -self.entries[window, :_A_ENTRIES]
         effect = -self.entries[window, _A_ENTRIES:].reshape(-1, NX, self.space.size)

@@ -1,36 +1,21 @@
-<<<<<<< HEAD
 """Shift of the QP's target that keeps the object on its path under a constant disturbance."""
-=======
-"""The shift of the plan under which a constant model error leaves the object on its path."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
 import numpy as np
 from push_core.common import InputError
 from push_core.geometry import Array
 
-<<<<<<< HEAD
 # weights of the rates: 1 rad counts like 30 mm; the rate of p_y matters least
 _WORTH = np.array([1.0, 1.0, 0.03, 0.1])
 _EASE = np.array([0.1, 0.005])  # [rad], [m]; changes of theta and p_y that cost the same
 _INPUT_EASE = 0.25  # of the nominal speed; a change of the input that costs the same
-=======
-# weights of the rates: a turn [rad] counts as 30 mm of displacement, the contact offset least
-_WORTH = np.array([1.0, 1.0, 0.03, 0.1])
-_EASE = np.array([0.1, 0.005])  # [rad], [m]; changes of theta and p_y of equal cost
-_INPUT_EASE = 0.25  # of the nominal speed
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 _DAMPING = 1e-4
 
 
 def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
-    """The smallest change of state and input that keeps the planned rates under a model error.
+    """The smallest change of state and input that keeps the planned rates under a disturbance.
 
-<<<<<<< HEAD
     The planned rates cannot always be kept exactly, since a contact that sticks or slides does not
     reach all four rates. Hence damped least squares.
-=======
-    Neither a sticking nor a sliding contact reaches all four rates, hence damped least squares.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
     Args:
         by_state: derivative of the rates by the state (n, 4, 4).
@@ -42,11 +27,7 @@ def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
         does not change.
 
     Raises:
-<<<<<<< HEAD
         InputError: the model's displacement rates are implausibly large.
-=======
-        InputError: the model's motion is implausible.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
     """
     speed = by_twist[:, 2, 2]
     worth = _WORTH[:, None] / speed[:, None, None]

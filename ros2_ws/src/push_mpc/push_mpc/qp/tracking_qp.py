@@ -1,29 +1,16 @@
-<<<<<<< HEAD
 """The QP of one tick: set up once, then prepare and solve in every tick.
-=======
-"""The QP of one tick: build once, prepare, solve.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
     min  sum_i  (x_i - g_i)^T Q (x_i - g_i) + (u_i - h_i)^T R (u_i - h_i)
          + (u_0 - b)^T S (u_0 - b)
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
          bounds on p_y of every state but the first, and on combinations of each u_i
 
-<<<<<<< HEAD
 in deviations from the nominal. c, g and h are linear in the disturbance; b is the last command. S
 penalises the change from that command, which follows the measurement noise otherwise. OSQP gets
 the problem in millimetres, with the cost divided by the largest weight. With this scaling its
 longest solve times are an order of magnitude shorter than in SI units, and its own scaling only
 takes time. The first input is within 2e-4 m/s of that of an independent solver; polishing would
 remove this difference for a third more time.
-=======
-in deviations from the nominal; c, g and h are linear in the model error, b is the last command: S
-penalises the change from it, without which measurement noise goes straight into the command. OSQP
-gets the problem in millimetres and with its cost divided by the largest weight: the tail of its
-solution time is then an order of magnitude shorter than in SI units, and its own scaling would
-only cost time. Its input is within 2e-4 m/s of an independent solver's; polishing to the rest
-would take a third more time.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 """
 
 from dataclasses import dataclass
@@ -56,19 +43,11 @@ OSQP_SETTINGS = {
 
 @dataclass(frozen=True)
 class Solution:
-<<<<<<< HEAD
     """Solution of the QP; its arrays are valid until the next solve.
 
     Attributes:
         inputs: deviations of the inputs from the nominal (N, m).
         states: deviations of the states (N + 1, 4), in the solver's units.
-=======
-    """The solution of one QP.
-
-    Attributes:
-        inputs: deviations of the inputs from the nominal (N, m); valid until the next solve.
-        states: deviations of the states (N + 1, 4) in the solver's units; valid likewise.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         cost: of the whole horizon, in the solver's scale.
         status: of the solver, 1 = solved.
         iterations: of the solver.
@@ -96,11 +75,7 @@ class Solution:
 
 @dataclass(frozen=True)
 class Problem:
-<<<<<<< HEAD
     """The QP of one tick: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
-=======
-    """The numbers of one QP: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
     The variables z are the states, 4 (N + 1) of them, then the inputs. The rows are the dynamics,
     one for each state, then the limits.
@@ -124,11 +99,7 @@ class Problem:
     units: tuple[Array, Array, float]
 
     def in_si_units(self) -> 'Problem':
-<<<<<<< HEAD
         """The same problem in SI units."""
-=======
-        """The same QP in SI units."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         variables, rows, cost = self.units
         matrix = sparse.csc_matrix(
             sparse.diags_array(rows) @ self.matrix @ sparse.diags_array(1.0 / variables)
@@ -157,7 +128,7 @@ class TrackingQP:
         input_weights: Array,
         change_weights: Array,
     ) -> None:
-        """Sets up the solver.
+        """Sets the solver up.
 
         Args:
             steps: N, length of the horizon.
@@ -185,11 +156,7 @@ class TrackingQP:
         self._first_inputs(self._cost)[:] += self._change
         self._linear = np.zeros(self._size)
         self._disturbance = np.ones(4)
-<<<<<<< HEAD
         self._widening = 0.0
-=======
-        self._face_slack = 0.0
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self._solver = osqp.OSQP()
         self._solver.setup(
             sparse.csc_matrix(sparse.diags_array(self._cost)),
@@ -201,7 +168,6 @@ class TrackingQP:
         )
 
     def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
-<<<<<<< HEAD
         """Loads everything that does not depend on the state: most of the work of a tick.
 
         Copies into arrays that exist; allocates none.
@@ -210,16 +176,6 @@ class TrackingQP:
             stages: of the whole plan.
             window: indices (N,) of those in the horizon.
             first: its limits replace those of the first stage.
-=======
-        """Loads everything that does not depend on the state: most of a tick's work.
-
-        Copies into existing arrays; allocates nothing.
-
-        Args:
-            stages: of the plan.
-            window: indices of the stages of the horizon (N,).
-            first: stages whose limits hold in the first stage.
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         """
         np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
         self._matrix.data[self._places] = self._entries
@@ -229,7 +185,6 @@ class TrackingQP:
         np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
         self._limited(self._low)[0] = first.low[window[0]]
         self._limited(self._high)[0] = first.high[window[0]]
-<<<<<<< HEAD
         self._widening = 0.0
         self._solver.update(Ax=self._matrix.data)
 
@@ -241,37 +196,15 @@ class TrackingQP:
             widening: added to the bounds of p_y on both sides [m].
             disturbance: model error, a twist per metre of travel (3,) [1, 1, rad/m].
             before: b, the last command minus the present nominal input (m,).
-=======
-        self._face_slack = 0.0
-        self._solver.update(Ax=self._matrix.data)
-
-    def solve(
-        self, start: Array, face_slack: float, disturbance: Array, before: Array
-    ) -> Solution:
-        """Solves the prepared QP, warm-started with the previous solution.
-
-        Args:
-            start: deviation x_0 (4,) from the nominal [m, m, rad, m].
-            face_slack: by how much the bounds of p_y are wider than prepared [m].
-            disturbance: estimated model error, twist per metre of travel (3,).
-            before: last input minus the current nominal input (m,).
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         """
         self._disturb(disturbance)
         self._first_inputs(self._linear)[:] -= self._change * (before / self._space.scale)
         np.divide(start, STATE_SCALE, out=self._low[:NX])
         self._high[:NX] = self._low[:NX]
-<<<<<<< HEAD
         wider = (widening - self._widening) / STATE_SCALE[3]
         self._limited(self._low)[:, 0] -= wider
         self._limited(self._high)[:, 0] += wider
         self._widening = widening
-=======
-        wider = (face_slack - self._face_slack) / STATE_SCALE[3]
-        self._limited(self._low)[:, 0] -= wider
-        self._limited(self._high)[:, 0] += wider
-        self._face_slack = face_slack
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
         inputs = result.x[self._states :].reshape(self.steps, -1)
@@ -289,11 +222,7 @@ class TrackingQP:
 
     @property
     def problem(self) -> Problem:
-<<<<<<< HEAD
         """A copy of the problem that was solved last."""
-=======
-        """A copy of the QP that was solved last."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         steps, space = self.steps, self._space
         variables = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.scale, steps)])
         rows = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.rows_scale, steps)])
@@ -309,11 +238,7 @@ class TrackingQP:
         )
 
     def _disturb(self, disturbance: Array) -> None:
-<<<<<<< HEAD
         """Sets the drift c, and the linear part of the cost from the targets g and h."""
-=======
-        """Sets the drift, and the linear cost that makes the steady state and input optimal."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self._disturbance[1:] = disturbance
         drift = self._low[NX : self._states].reshape(-1, NX)
         np.matmul(self._drift, self._disturbance, out=drift)
@@ -328,11 +253,7 @@ class TrackingQP:
         np.negative(self._linear, out=self._linear)
 
     def _first_inputs(self, variables: Array) -> Array:
-<<<<<<< HEAD
         """The entries of the first stage's inputs, as a view (m,)."""
-=======
-        """The inputs of the first stage, as a view (m,)."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         return variables[self._states : self._states + self._space.size]
 
     def _limited(self, bounds: Array) -> Array:
@@ -370,11 +291,7 @@ class TrackingQP:
         return matrix
 
     def _entry_places(self) -> Array:
-<<<<<<< HEAD
         """Index (N, entries) into the matrix data of the entries of each stage."""
-=======
-        """Indices into the matrix data of the entries of `Stages`, (N, entries)."""
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         step = np.arange(self.steps)[:, None]
         a_row, a_column = np.nonzero(A_PATTERN)
         inputs = self._space.size

@@ -1,8 +1,4 @@
-<<<<<<< HEAD
 """The data-driven controller: one QP over the tip's velocity [v_n, v_t].
-=======
-"""The data-driven controller: one QP over the tip velocity [v_n, v_t].
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 
 Works with any model of the object's displacement. Source: Bauza, Hogan and Rodriguez 2018,
 section 4.
@@ -16,11 +12,7 @@ from push_mpc.motion import TravelModel, TravelMotion
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
-<<<<<<< HEAD
 from push_mpc.qp.steering import LinearisedPlan, Move
-=======
-from push_mpc.qp.steering import PreparedQps, SteeringResult
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
 from push_mpc.qp.tracking_qp import TrackingQP
 from push_mpc.settings import ControllerSettings
 
@@ -44,7 +36,6 @@ class VelocitySteering:
         )
         self.solvers = (solver,)
 
-<<<<<<< HEAD
     def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
         """See `Steering.linearised`."""
         motion = TravelMotion(model, self._slider.tip_x)
@@ -54,47 +45,23 @@ class VelocitySteering:
     def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """See `Steering.prepare`."""
         (stages,) = linearised.stages
-=======
-    def prepared_qps(self, model: TravelModel, plan: Plan, stride: int) -> PreparedQps:
-        """See `Steering.prepared_qps`."""
-        motion = TravelMotion(model, self._slider.tip_x)
-        preview = Preview.of(plan, motion, stride)
-        return PreparedQps(plan, (Stages.of(SPACE, preview, self._limits(preview)),))
-
-    def prepare(self, qps: PreparedQps, window: Array) -> None:
-        """See `Steering.prepare`."""
-        (stages,) = qps.stages
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         self.solvers[0].prepare(stages, window, stages)
 
     def solve(
         self,
-<<<<<<< HEAD
         linearised: LinearisedPlan,
         _state: Array,
         deviation: Array,
         time: float,
         widening: float,
-=======
-        qps: PreparedQps,
-        _state: Array,
-        deviation: Array,
-        time: float,
-        face_slack: float,
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         disturbance: Array,
         sent: Array,
-    ) -> SteeringResult:
+    ) -> Move:
         """See `Steering.solve`."""
-<<<<<<< HEAD
         nominal = linearised.plan.at(time)[1]
         solution = self.solvers[0].solve(deviation, widening, disturbance, sent - nominal)
-=======
-        nominal = qps.plan.at(time)[1]
-        solution = self.solvers[0].solve(deviation, face_slack, disturbance, sent - nominal)
->>>>>>> f004edb (Call QPs so throughout push_mpc, and say what their data are)
         velocity = nominal + solution.inputs[0]
-        return SteeringResult(
+        return Move(
             velocity, solution.status, solution.iterations, solution.usable, solution.states
         )
 
