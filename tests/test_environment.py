@@ -2,7 +2,9 @@
 
 import os
 import shutil
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -145,3 +147,20 @@ def test_env_of_a_fresh_clone_says_what_to_do(tmp_path):
     assert result.returncode == 1
     message = f"env.sh: the cell is not set up: run 'make setup' in {tmp_path} first\n"
     assert result.stderr == message
+
+
+@pytest.mark.parametrize('seconds', [0.0, 0.01, 0.03, 0.06])
+def test_ctrl_c_at_the_start_of_a_command_is_no_traceback(seconds):
+    command = subprocess.Popen(
+        ['ros2', 'run', 'push_bag', 'info'],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    time.sleep(seconds)
+    os.killpg(command.pid, signal.SIGINT)
+    out, err = command.communicate(timeout=60.0)
+    assert out == ''
+    if command.returncode != -signal.SIGINT:  # not even the shell had begun
+        assert (command.returncode, err) in [(130, ''), (130, 'info: interrupted\n')]

@@ -49,10 +49,20 @@ build_packages() {
   done
   run_colcon "$@" > "$logs/colcon.log" 2>&1 || status=$?
   for name; do
-    [ "$(cat "$WORKSPACE/build/$name/colcon_build.rc" 2> /dev/null)" != 0 ] ||
-      printf '%s\n' "${keys[$name]}" > "$(built_stamp "$name")"
+    [ "$(cat "$WORKSPACE/build/$name/colcon_build.rc" 2> /dev/null)" = 0 ] || continue
+    hold_interrupts_of "$name"
+    printf '%s\n' "${keys[$name]}" > "$(built_stamp "$name")"
   done
   return "$status"
+}
+
+# hold_interrupts_of NAME: lets Ctrl-C wait for push_core.console; while Python itself starts it would
+# print a traceback.
+hold_interrupts_of() {
+  local script
+  for script in "$WORKSPACE/install/$1/lib/$1"/*; do
+    [ ! -f "$script" ] || sed -i '1s|^#!\(/.*python[^ ]*\)$|#!/usr/bin/env -S --block-signal=INT \1|' "$script"
+  done
 }
 
 run_colcon() (

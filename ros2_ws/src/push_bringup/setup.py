@@ -26,10 +26,10 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'bench = push_bringup.commands.bench:main',
-            'cell = push_bringup.commands.cell:main',
-            'parameters = push_bringup.commands.parameters:main',
-            'start = push_bringup.commands.start:main',
+            'bench = push_bringup.console:bench',
+            'cell = push_bringup.console:cell',
+            'parameters = push_bringup.console:parameters',
+            'start = push_bringup.console:start',
         ],
         'push_bag.recompute': ['cell = push_bringup.in_process.recompute:recomputed'],
     },

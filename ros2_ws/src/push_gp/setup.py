@@ -16,10 +16,10 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'gp_server = push_gp.server.gp_server:main',
-            'train = push_gp.commands.train:main',
-            'curve = push_gp.commands.curve:main',
-            'evaluate = push_gp.commands.evaluate:main',
+            'gp_server = push_gp.console:gp_server',
+            'train = push_gp.console:train',
+            'curve = push_gp.console:curve',
+            'evaluate = push_gp.console:evaluate',
         ],
     },
 )

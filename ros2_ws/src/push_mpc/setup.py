@@ -19,7 +19,7 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'mpc_node = push_mpc.node.mpc_node:main',
+            'mpc_node = push_mpc.console:mpc_node',
         ],
     },
 )

@@ -16,11 +16,11 @@ setup(
     zip_safe=False,
     entry_points={
         'console_scripts': [
-            'sim_node = push_sim.node.sim_node:main',
-            'bench = push_sim.commands.bench:main',
-            'collect = push_sim.commands.collect:main',
-            'validate = push_sim.commands.validate:main',
-            'calibrate = push_sim.commands.calibrate:main',
+            'sim_node = push_sim.console:sim_node',
+            'bench = push_sim.console:bench',
+            'collect = push_sim.console:collect',
+            'validate = push_sim.console:validate',
+            'calibrate = push_sim.console:calibrate',
         ],
     },
 )

@@ -1,6 +1,9 @@
 """The controller with the real plant, in process."""
 
 import math
+import signal
+import threading
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -194,3 +197,23 @@ def test_whatever_is_seen_a_tick_ends_in_a_finite_command_or_a_stated_stop(
         if tick.mode == Mode.STOPPED:
             assert is_still(tick)
             assert controller.stop_reason
+
+
+@pytest.mark.parametrize('controller', ['gp', 'analytical'])
+def test_no_ctrl_c_is_lost_while_the_solver_has_a_handler_of_its_own(
+    make_cell, controller
+) -> None:
+    cell = make_cell(replace(SETTINGS, controller=controller))
+    cell.controller.arm()
+    main, presses, taken = threading.get_ident(), 40, 0
+    for press in range(presses):
+        # to this thread: the test runner has another one
+        timer = threading.Timer(1e-4 * press, signal.pthread_kill, (main, signal.SIGINT))
+        try:
+            timer.start()
+            end = time.monotonic() + 5.0
+            while time.monotonic() < end:
+                cell.tick()
+        except KeyboardInterrupt:
+            taken += 1
+    assert taken == presses

@@ -9,7 +9,14 @@ from contextlib import contextmanager
 from types import FrameType
 
 import rclpy
-from push_core.common import InputError, PushError, describe
+from push_core.common import (
+    INTERRUPTED,
+    InputError,
+    InterruptsHeld,
+    PushError,
+    describe,
+    take_held_interrupt,
+)
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
@@ -40,14 +47,22 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         argv: ROS arguments; default: those of the process.
 
     Returns:
-        Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong.
+        Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong, 130
+        interrupted before the node was made.
     """
+    # held for the threads of the middleware too: OSQP's handler would take a Ctrl-C there
+    with InterruptsHeld():
+        return _run_node(make_node, sys.argv if argv is None else ['node', *argv])
+
+
+def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
     stop_on_signals()
-    arguments = sys.argv if argv is None else ['node', *argv]
     try:
         if _wants_help(arguments):
-            sys.stdout.write(f'{inspect.getdoc(make_node)}\n{_HELP}')
+            print(f'{inspect.getdoc(make_node)}\n{_HELP}', end='')  # noqa: T201
             return 0
+        if take_held_interrupt():
+            return INTERRUPTED
         _init(arguments)
         node = _made(make_node)
         try:
@@ -74,9 +89,15 @@ class Spinner:
 
     def once(self) -> bool:
         """Handles one event, or waits up to 0.1 s for one; False after a stop was requested."""
-        if not _stop_requested:
+        if not _stop_is_requested():
             self._executor.spin_once(timeout_sec=_LONGEST_WAIT)
-        return not _stop_requested
+        return not _stop_is_requested()
+
+
+def _stop_is_requested() -> bool:
+    if take_held_interrupt():
+        request_stop()
+    return _stop_requested
 
 
 def stop_on_signals() -> None:

@@ -157,3 +157,31 @@ def test_an_argument_that_is_none_of_ros_is_refused(node) -> None:
     assert errors == (
         "tested: unknown argument 'model.npz'; parameters follow --ros-args, see --help\n"
     )
+
+
+def test_ctrl_c_during_the_imports_ends_it_before_it_is_made_with_status_130(started) -> None:
+    program = PROGRAM.format(construction='pass', tick='pass').replace(
+        'sys.exit(',
+        'from push_core.console import hold_interrupts; hold_interrupts()\n'
+        'os.kill(os.getpid(), 2)\nsys.exit(',
+    )
+    process = started(program)
+    output, errors = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, output, errors) == (130, '', '')
+
+
+def test_ctrl_c_while_it_is_made_ends_it_cleaned_up_before_the_first_callback(node) -> None:
+    process = node(construction='os.kill(os.getpid(), 2)', tick='1 / 0')
+    output, errors = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, output, errors) == (0, 'ready\ncleaned up\n', '')
+
+
+def test_ctrl_c_reaches_a_node_while_a_handler_of_a_library_is_installed(node) -> None:
+    # as OSQP's is during a solve; threads of the middleware must not run it either
+    tick = (
+        "import signal; signal.signal(2, lambda *_: sys.stdout.write('lost\\n')); "
+        'os.kill(os.getpid(), 2)'
+    )
+    process = node(tick=tick)
+    output, _ = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, output) == (0, 'ready\ncleaned up\n')

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_core.common import Parser, run_command, write_atomically
+from push_core.common import InterruptsHeld, Parser, run_command, write_atomically
 from push_core.geometry import Array
 from push_mpc.qp import NX, Problem
 from tqdm import tqdm
@@ -110,9 +110,10 @@ def _solved(
     solvers = [make(problem) for problem in ticks[0]]
     for tick in tqdm(ticks, desc=name, unit=' ticks', disable=None):
         given = [problem.in_si_units() if in_si_units else problem for problem in tick]
-        started = time.thread_time()
-        solutions = [solver.solve(each) for solver, each in zip(solvers, given, strict=True)]
-        seconds = time.thread_time() - started
+        with InterruptsHeld():  # OSQP has a handler of its own
+            started = time.thread_time()
+            solutions = [solver.solve(each) for solver, each in zip(solvers, given, strict=True)]
+            seconds = time.thread_time() - started
         inputs = [
             _first_inputs(problem, variables * problem.units[0])
             for problem, (variables, _) in zip(given, solutions, strict=True)

@@ -10,9 +10,12 @@ from push_mpc.plan import Plan
 from push_mpc.table import Domain, ModelScope, Query, QueryResult, Table, tabulation
 from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
+from tqdm import tqdm
 
 from push_bringup.setup import CellParameters
 
+# a thread of the progress bar would take the Ctrl-C that the controller holds while it solves
+tqdm.monitor_interval = 0
 OnTick = Callable[[Observation, Tick, float], None]
 
 

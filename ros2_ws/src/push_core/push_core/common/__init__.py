@@ -3,6 +3,11 @@
 from push_core.common.atomic_file import check_place, write_atomically
 from push_core.common.command_line import Parser, describe, run_command
 from push_core.common.errors import InputError, PushError, RunError
+from push_core.common.interrupts import (
+    INTERRUPTED,
+    InterruptsHeld,
+    take_held_interrupt,
+)
 from push_core.common.settings import (
     Described,
     flatten,
@@ -18,8 +23,10 @@ from push_core.common.text_table import markdown_table, plain_table
 from push_core.common.workers import Map, Workers, usable_cores, worker_pool
 
 __all__ = [
+    'INTERRUPTED',
     'Described',
     'InputError',
+    'InterruptsHeld',
     'Map',
     'Parser',
     'PushError',
@@ -37,6 +44,7 @@ __all__ = [
     'replaced',
     'run_command',
     'setting',
+    'take_held_interrupt',
     'unused_names',
     'usable_cores',
     'validate',

@@ -9,9 +9,8 @@ import traceback
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
-from push_core.common.errors import PushError
-
-INTERRUPTED = 130
+from push_core.common.errors import InputError, PushError
+from push_core.common.interrupts import INTERRUPTED, InterruptOnce, release_interrupts
 
 
 class Parser(argparse.ArgumentParser):
@@ -45,23 +44,56 @@ def run_command(
     Returns:
         Exit status: 0 done, 1 the run or check failed, 2 the command was wrong, 130 interrupted.
     """
-    arguments = parser.parse_args(argv)
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
+    debug = False
     try:
-        return work(arguments) or 0
+        _take_signals()
+        arguments = parser.parse_args(argv)
+        debug = arguments.debug
+        _check_output()
+        status = work(arguments) or 0
+        # a full disk or a reader that went away shows now, not at the end of the interpreter
+        sys.stdout.flush()
+        return status
     except BrokenPipeError:
-        # the reader (head, less) has closed the pipe
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # the reader (head, less) went away: nobody is left to tell
+        _discard_output()
         return 128 + signal.SIGPIPE
     except (PushError, OSError) as error:
-        if arguments.debug:
+        if debug:
             traceback.print_exc()
         print(f'{parser.prog}: {describe(error)}', file=sys.stderr)  # noqa: T201
+        _flush_or_discard()
         return error.status if isinstance(error, PushError) else 1
     except KeyboardInterrupt:
         print(f'{parser.prog}: interrupted', file=sys.stderr)  # noqa: T201
         return INTERRUPTED
+
+
+def _take_signals() -> None:
+    if threading.current_thread() is threading.main_thread():
+        handler = InterruptOnce()
+        if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as for what runs behind `&`
+            signal.signal(signal.SIGINT, handler)
+        signal.signal(signal.SIGTERM, handler)
+        release_interrupts()
+
+
+def _check_output() -> None:
+    if sys.stdout is None:
+        raise InputError('standard output is closed; add > /dev/null if it is not needed')
+
+
+def _flush_or_discard() -> None:
+    try:
+        if sys.stdout is not None:
+            sys.stdout.flush()
+    except OSError:
+        _discard_output()
+
+
+def _discard_output() -> None:
+    """Spares the interpreter, which flushes at its end, a second error."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def describe(error: BaseException) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pkgutil import resolve_name
 
 import numpy as np
+from push_core.common import InterruptsHeld
 from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit
 
@@ -43,6 +44,8 @@ class Controller:
         self._predictor = Predictor(settings.actuator, slider)
         self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
         self._steering = _steering(settings, slider)
+        # OSQP has a handler of its own while it solves
+        self._interrupts_held = InterruptsHeld()
         self._stride = horizon_stride(plan, settings)
         self._steps = self._stride * np.arange(settings.horizon_steps + 1)
         self._samples = self._steps.copy()
@@ -216,15 +219,16 @@ class Controller:
         self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
         # a tip that is already past the end of the face must not make the QP infeasible
         widening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        move = self._steering.solve(
-            model.linearised,
-            state,
-            deviation,
-            reference_time,
-            widening,
-            self._disturbance.rate,
-            rotation(state[2]).T @ self._sent,
-        )
+        with self._interrupts_held:
+            move = self._steering.solve(
+                model.linearised,
+                state,
+                deviation,
+                reference_time,
+                widening,
+                self._disturbance.rate,
+                rotation(state[2]).T @ self._sent,
+            )
         if not move.usable:
             self.stop(f'the solver returned no usable input (status {move.status})')
         return Tick(

@@ -13,6 +13,7 @@ takes time. The first input is within 2e-4 m/s of that of an independent solver;
 remove this difference for a third more time.
 """
 
+import signal
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +25,7 @@ from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 
 _SOLVED_STATUS = (1, 2)  # OSQP's solved, and solved inaccurately
 _ITERATION_LIMIT = 7
+_INTERRUPTED = 10
 _LARGEST_RESIDUAL = 0.1
 """Largest violation of a constraint at which an unfinished solution may be used, in the solver's
 units: 0.1 mm, 1 mrad, 1 mm/s."""
@@ -207,6 +209,9 @@ class TrackingQP:
         self._widening = widening
         self._solver.update(q=self._linear, l=self._low, u=self._high)
         result = self._solver.solve(raise_error=False)
+        if result.info.status_val == _INTERRUPTED:
+            # OSQP's own handler took the Ctrl-C
+            signal.raise_signal(signal.SIGINT)
         inputs = result.x[self._states :].reshape(self.steps, -1)
         np.multiply(inputs, self._space.scale, out=self._inputs)
         states = result.x[: self._states].reshape(-1, NX)

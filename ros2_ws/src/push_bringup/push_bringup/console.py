@@ -1,0 +1,8 @@
+"""The console scripts of this package."""
+
+from push_core.console import console_script
+
+bench = console_script('push_bringup.commands.bench')
+cell = console_script('push_bringup.commands.cell')
+parameters = console_script('push_bringup.commands.parameters')
+start = console_script('push_bringup.commands.start')
