@@ -54,6 +54,21 @@ def test_a_pose_that_cannot_be_is_refused_with_its_value(gate, kind: str) -> Non
     assert gate.counts == {rejection.kind: 1}
 
 
+@pytest.mark.parametrize(
+    ('setting', 'frame', 'age'),
+    [
+        ({'frame': 'map'}, 'map', 0.02),
+        ({'max_age': 1.0}, 'world', 0.5),
+        ({'clock_tolerance': 0.1}, 'world', -0.05),
+    ],
+    ids=['frame', 'max_age', 'clock_tolerance'],
+)
+def test_each_setting_decides_what_is_accepted(gate, setting, frame: str, age: float) -> None:
+    changed = PoseGate(PoseGateSettings(**setting), SafetyLimits())
+    assert gate.check('object_pose', frame, PLACE, UPRIGHT, age) is not None
+    assert changed.check('object_pose', frame, PLACE, UPRIGHT, age) is None
+
+
 @given(
     x=st.floats(-0.7, 0.7),
     y=st.floats(-0.7, 0.7),
