@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mcap.writer import Writer
 from push_bag.file.bag_writer import BagWriter
 from push_bag.file.message_types import message_class
 from push_bag.file.qos_text import qos_text
@@ -220,3 +221,41 @@ def perfect(tmp_path_factory):
     folder = tmp_path_factory.mktemp('runs') / 'perfect'
     Recorder(folder, Synthetic()).record()
     return folder
+
+
+CDR_TEXT = b'\0\1\0\0\2\0\0\0a\0'
+STRING = ('std_msgs/msg/String', 'ros2msg', b'string data\n')
+
+
+class Bag:
+    """An MCAP file that is being written with the library of the format's makers."""
+
+    def __init__(self, path, profile='', **options):
+        self.path = path
+        self.stream = path.open('wb')
+        self.writer = Writer(self.stream, **options)
+        self.writer.start(profile=profile)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.writer.finish()
+        self.stream.close()
+
+    def channel(self, topic='/chatter', schema=STRING, encoding='cdr', **metadata):
+        number = self.writer.register_schema(*schema) if schema else 0
+        return self.writer.register_channel(topic, encoding, number, metadata)
+
+    def add(self, channel, log_ns=10, data=CDR_TEXT, sequence=0, publish_ns=9):
+        self.writer.add_message(channel, log_ns, data, publish_ns, sequence)
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """Opens a new MCAP file for writing."""
+
+    def write(name='other.mcap', **options):
+        return Bag(tmp_path / name, **options)
+
+    return write

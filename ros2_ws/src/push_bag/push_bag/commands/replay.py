@@ -5,7 +5,7 @@ import itertools
 import math
 import sys
 import time
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import rclpy
@@ -111,7 +111,7 @@ def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
     if not publishers.have_subscribers:
         sys.stderr.write('replay: no topic has a subscriber; --delay S waits longer\n')
     for _ in itertools.count() if arguments.loop else range(1):
-        records = _records(arguments, bag, publishers.names)
+        records = _records(arguments, bag, publishers)
         count = play(records, publishers.publish, arguments.rate, bag.seconds - arguments.start)
         sys.stdout.write(f'{count} messages on {len(publishers.names)} topics replayed\n')
         sys.stdout.flush()
@@ -135,11 +135,12 @@ def _check_left_out(publishers: Publishers, bag: Survey, arguments: argparse.Nam
 
 
 def _records(
-    arguments: argparse.Namespace, bag: Survey, names: Collection[str]
+    arguments: argparse.Namespace, bag: Survey, publishers: Publishers
 ) -> Iterator[Record]:
     reader = BagReader(arguments.run)
+    records = filter(publishers.takes, reader.records(publishers.names))
     begin = bag.first_ns + round(arguments.start * 1e9)
-    return from_time(begin, in_order(reader.records(names), bag.disorder_ns))
+    return from_time(begin, in_order(records, bag.disorder_ns))
 
 
 if __name__ == '__main__':

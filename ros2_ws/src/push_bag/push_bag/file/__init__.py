@@ -4,7 +4,7 @@ from push_bag.file.atomic_bag import atomic_bag
 from push_bag.file.bag_contents import BagContents
 from push_bag.file.bag_files import bag_files
 from push_bag.file.bag_writer import COUNTS_RECORD, BagWriter
-from push_bag.file.cdr_columns import Columns, columns
+from push_bag.file.cdr_columns import COMPRESSED, Columns, columns, is_compressed
 from push_bag.file.cdr_layout import Leaf, leaves
 from push_bag.file.message_types import (
     Definition,
@@ -18,6 +18,7 @@ from push_bag.file.topic_registry import Schema, Topic
 from push_bag.file.traffic import Traffic, TrafficLog, counted, lost_text
 
 __all__ = [
+    'COMPRESSED',
     'COUNTS_RECORD',
     'BagContents',
     'BagReader',
@@ -35,6 +36,7 @@ __all__ = [
     'columns',
     'counted',
     'installed_definition',
+    'is_compressed',
     'leaves',
     'lost_text',
     'message_class',

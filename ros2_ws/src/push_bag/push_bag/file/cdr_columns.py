@@ -17,7 +17,17 @@ from push_bag.file.cdr_layout import Leaf
 Columns: TypeAlias = dict[str, NDArray[Any]]
 Rows: TypeAlias = NDArray[np.intp]
 _LITTLE_ENDIAN_CDR = (0, 1)
+_ZSTD = b'\x28\xb5\x2f\xfd'
+COMPRESSED = (
+    'its messages are compressed one by one, as by rosbag2 in compression mode "message"; '
+    '`ros2 bag convert` writes them without'
+)
 _HEADER = 4  # bytes before the first field; alignment is relative to its end
+
+
+def is_compressed(data: bytes) -> bool:
+    """Whether a message is compressed by itself; CDR never begins so."""
+    return data.startswith(_ZSTD)
 
 
 def columns(messages: Sequence[bytes], layout: Sequence[Leaf], names: Collection[str]) -> Columns:
@@ -55,6 +65,8 @@ class _Decoder:
 
     def add(self, matrix: NDArray[np.uint8], rows: Rows) -> None:
         """Decodes messages of equal length (n, length) into the rows (n,) of the columns."""
+        if matrix.shape[1] >= _HEADER and is_compressed(matrix[0, :_HEADER].tobytes()):
+            raise ValueError(COMPRESSED)
         if matrix.shape[1] < _HEADER or np.any(matrix[:, :2] != _LITTLE_ENDIAN_CDR):
             raise ValueError('not little-endian CDR')
         self._decode_from(0, matrix[:, _HEADER:], rows, 0)

@@ -10,6 +10,7 @@ from rclpy.serialization import deserialize_message
 
 from push_bag.file.bag_contents import BagContents
 from push_bag.file.bag_files import bag_files
+from push_bag.file.cdr_columns import COMPRESSED, is_compressed
 from push_bag.file.message_types import message_class
 from push_bag.file.topic_registry import Topic
 from push_bag.stream import (
@@ -44,6 +45,8 @@ class Record(NamedTuple):
             InputError: the type is not installed, or the bytes are not of that type.
         """
         kind = message_class(self.topic.type_name)
+        if is_compressed(self.data):
+            raise InputError(f'{self.topic.name}: {COMPRESSED}')
         try:
             return deserialize_message(self.data, kind)
         except (RuntimeError, ValueError, MemoryError):

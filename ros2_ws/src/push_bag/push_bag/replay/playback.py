@@ -9,6 +9,7 @@ from push_core.common import InputError
 from push_node.interface import CLOCK
 from push_node.stamps import to_stamp
 from rclpy.exceptions import InvalidTopicNameException
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy
 from rosgraph_msgs.msg import Clock
@@ -17,6 +18,7 @@ from tqdm import tqdm
 from push_bag.file import Record, Topic, message_class, qos_profile
 
 MATCHING_PERIOD = 0.02  # [s]
+RCLError: type[Exception] = rclpy_implementation.RCLError
 
 
 def in_order(records: Iterable[Record], disorder_ns: int) -> Iterator[Record]:
@@ -126,18 +128,28 @@ class Publishers:
         """Names of the topics that are published."""
         return set(self._publishers)
 
+    def takes(self, record: Record) -> bool:
+        """Whether a record is of a type that is published on its topic."""
+        return self._types.get(record.topic.name) == record.topic.type_name
+
     @property
     def have_subscribers(self) -> bool:
         """Whether any of the topics has a subscriber."""
         return any(each.get_subscription_count() for each in self._publishers.values())
 
     def publish(self, record: Record) -> None:
-        """Publishes one record, after its time on /clock; not one of another type of the topic."""
-        if record.topic.type_name != self._types[record.topic.name]:
-            return
+        """Publishes one record, after its time on /clock.
+
+        Raises:
+            InputError: the message is not of its topic's type.
+        """
         if self._clock is not None:
             self._clock.publish(Clock(clock=to_stamp(record.log_ns)))
-        self._publishers[record.topic.name].publish(record.data)
+        try:
+            self._publishers[record.topic.name].publish(record.data)
+        except RCLError:
+            topic = record.topic
+            raise InputError(f'a message on {topic.name} is not a {topic.type_name}') from None
 
     def _add(self, topic: Topic) -> None:
         try:

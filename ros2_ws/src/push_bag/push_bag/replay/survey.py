@@ -7,7 +7,7 @@ from pathlib import Path
 from push_core.common import InputError
 from push_node.endpoints import short_name
 
-from push_bag.file import BagReader, Topic
+from push_bag.file import COMPRESSED, BagReader, Topic, is_compressed
 
 
 @dataclass(frozen=True)
@@ -51,6 +51,8 @@ def survey(path: Path, names: Sequence[str] | None) -> Survey:
     for record in reader.records():
         latest = max(latest, record.log_ns)
         disorder = max(disorder, latest - record.log_ns)
+        if is_compressed(record.data):
+            raise InputError(f'{record.topic.name}: {COMPRESSED}')
         first, last = spans.get(record.topic.name, (record.log_ns, record.log_ns))
         spans[record.topic.name] = min(first, record.log_ns), max(last, record.log_ns)
     topics = _selected({name: reader.topics[name] for name in spans}, names)
