@@ -11,10 +11,10 @@ Named: TypeAlias = Iterator[tuple[str, Figure | None]]
 def figures(sections: Mapping[str, Mapping[str, Any]]) -> dict[str, Figure]:
     """All figures of the sections of results.json by name; errors in mm, times in ms.
 
-    Names: `eight_80_gp` (median error of the paper's row, profile irb120), `harsh_eight_80_gp`
-    (another profile), `without_delay_prediction_eight_80` (ablation),
-    `training_size_200_zero_random`, `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`,
-    `table_date` (when a section was made).
+    Names: `eight_80_gp` (median error of the paper's row, profile irb120), `eight_80_gp_truth`
+    (of the true poses), `harsh_eight_80_gp` (another profile),
+    `without_delay_prediction_eight_80` (ablation), `training_size_200_zero_random`,
+    `solver_gp_ours_osqp_p99`, `real_time_eight_80_gp`, `table_date` (when a section was made).
     """
     named: dict[str, Figure] = {}
     for name, section in sections.items():
@@ -30,7 +30,9 @@ def _paper_rows(section: str, results: Mapping[str, Any]) -> Named:
     yield f'{section}_completed', sum(row['completed'] for row in results['rows'])
     for row in results['rows']:
         prefix = '' if row['profile'] == 'irb120' else f'{row["profile"]}_'
-        yield f'{prefix}{_experiment(row)}_{row["controller"]}', row['median_mm']
+        name = f'{prefix}{_experiment(row)}_{row["controller"]}'
+        yield name, row['median_mm']
+        yield f'{name}_truth', row.get('truth_median_mm')
 
 
 def _sizes(section: str, results: Mapping[str, Any]) -> Named:
