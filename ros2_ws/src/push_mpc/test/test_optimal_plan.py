@@ -1,4 +1,4 @@
-"""Plans by collocation: sharp corners and given headings."""
+"""Plans by collocation: sharp corners and prescribed headings."""
 
 import math
 from dataclasses import replace

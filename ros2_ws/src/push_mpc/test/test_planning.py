@@ -60,7 +60,7 @@ def test_an_unknown_preset_is_refused() -> None:
 
 
 def test_a_track_that_asks_too_much_of_the_pusher_is_refused_with_the_place() -> None:
-    with pytest.raises(InputError, match=r'asks for a pusher speed of 0.3\d+ m/s near \d+ mm'):
+    with pytest.raises(InputError, match=r'needs a pusher speed of 0.3\d+ m/s near \d+ mm'):
         planned(replace(SETTINGS, track='square', speed=0.248))
     narrow = replace(SETTINGS, track='square', speed=0.1, tangential_speed_limit=0.05)
     with pytest.raises(InputError, match=r'\|v_t\| = 0.0\d+ m/s near \d+ mm .* limit is 0.05'):

@@ -1,4 +1,4 @@
-"""Parameter overrides on the command line of commands: `-p NAME:=VALUE`."""
+"""Parameter overrides on a command line: `-p NAME:=VALUE`."""
 
 import yaml
 from push_core.common import InputError

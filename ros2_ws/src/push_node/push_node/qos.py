@@ -7,8 +7,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 POSE = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, deadline=Duration(nanoseconds=20_000_000)
 )
-# for subscribers: it connects to any publisher, reliable or not, with a deadline or without
-HEARD_POSE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+# for subscribers to poses: matches every publisher, reliable or not, with or without a deadline
+POSE_SUBSCRIPTION = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 COMMAND = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 LATCHED = QoSProfile(
     depth=1,

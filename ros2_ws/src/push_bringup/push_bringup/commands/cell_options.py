@@ -28,32 +28,56 @@ def parser() -> Parser:
     """The command line."""
     parser = Parser('Pushes the square along a track, records the run and scores it.', EPILOG)
     tracks = ', '.join(TRACKS)
-    parser.add_argument('--track', default='eight', help=f'{tracks} or a .csv of x, y [m]')
-    parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
-    parser.add_argument('--controller', choices=tuple(CONTROLLERS), default='gp')
     parser.add_argument(
-        '--model', type=Path, metavar='FILE', help='for gp; default: 200 simulated pushes'
+        '--track',
+        default='eight',
+        help=f'{tracks} or a .csv of x, y [m] (default %(default)s)',
     )
-    parser.add_argument('--profile', choices=tuple(PROFILES), default='irb120')
+    parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
+    controllers = '; '.join(f'{name}: {kind.text}' for name, kind in CONTROLLERS.items())
+    parser.add_argument(
+        '--controller',
+        choices=tuple(CONTROLLERS),
+        default='gp',
+        help=f'{controllers} (default %(default)s)',
+    )
+    parser.add_argument(
+        '--model',
+        type=Path,
+        metavar='FILE',
+        help='model file for gp; default: a model of 200 simulated pushes, trained once',
+    )
+    parser.add_argument(
+        '--profile',
+        choices=tuple(PROFILES),
+        default='irb120',
+        help='lag of the robot and errors of the cameras (default %(default)s)',
+    )
     parser.add_argument(
         '--preset',
         choices=PRESETS,
         default='tuned',
-        help='of the controller; paper: its literal weights, h and N (default %(default)s)',
+        help='of the controller; paper: weights and horizon of the paper (default %(default)s)',
     )
     parser.add_argument(
         '--perturb',
         choices=('none', 'normal', 'tangential'),
         default='none',
-        help='at the start: object 30 mm off the pusher, or pusher 20 mm along the face',
+        help='at the start; normal: moves the object 30 mm off the pusher, '
+        'tangential: moves the pusher 20 mm along the face (default %(default)s)',
     )
-    parser.add_argument('--laps', type=int, default=1, help='rounds of a closed track')
-    parser.add_argument('--seed', type=int, default=0, help='of everything random')
+    parser.add_argument(
+        '--laps', type=int, default=1, help='rounds of a closed track (default %(default)s)'
+    )
+    parser.add_argument(
+        '--seed', type=int, default=0, help='of all random numbers (default %(default)s)'
+    )
     parser.add_argument(
         '--mode',
         choices=('realtime', 'lockstep', 'inprocess'),
         default='realtime',
-        help='nodes by the wall clock; nodes in step, repeatable; one process, fastest',
+        help='realtime: nodes by the wall clock; lockstep: nodes that wait for each other, '
+        'repeatable; inprocess: one process without ROS, fastest (default %(default)s)',
     )
     parser.add_argument(
         '-p',

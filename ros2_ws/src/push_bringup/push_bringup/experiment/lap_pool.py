@@ -1,8 +1,8 @@
 """Many laps on all cores, with a progress bar; finished laps are kept in a file.
 
 Every finished lap is appended to the file at once, so that an interrupted benchmark continues
-where it stopped. A lap is found by the hash of its job, which includes the sources, the library
-versions and the model; laps of other sources stay in the file unused.
+where it stopped. A lap is looked up by the hash of its job, which includes the sources, the
+library versions and the model; laps of other sources stay in the file unused.
 """
 
 import json

@@ -15,11 +15,11 @@ from push_core.physics import point_contact
 from push_core.physics.slider import Slider
 
 GRAZING = 0.01
-"""Smallest angle [rad] between face and push direction that models are asked for."""
+"""Smallest angle [rad] between face and push direction at which models are evaluated."""
 
 
 class ContactMode(IntEnum):
-    """Contact mode; the sign is that of dp_y/dt."""
+    """Contact mode; the sign is that of the tip's slip along the face."""
 
     SLIDING_RIGHT = -1
     STICKING = 0

@@ -29,7 +29,10 @@ def mobility(normal: Any, tangential: Any, c_squared: float) -> Mobility:
 
 
 def cone_edge(matrix: Mobility, friction: Any) -> tuple[Any, Any]:
-    """Velocity [normal, tangential] along the motion cone's edge; the friction has its sign."""
+    """Velocity [normal, tangential] along an edge of the motion cone.
+
+    The sign of the friction coefficient selects the edge.
+    """
     nn, nt, tt = matrix
     return nn + friction * nt, nt + friction * tt
 

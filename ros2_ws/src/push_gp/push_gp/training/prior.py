@@ -1,6 +1,6 @@
 """Priors of the hyperparameters.
 
-With a few pushes noise cannot be told from signal: without a prior the likelihood then prefers
+With a few pushes noise and signal cannot be separated: without a prior the likelihood then prefers
 lengthscales of zero or infinity. These log-normal priors weigh as much as a few pushes. `fit`
 applies them in full up to 300 pushes and less with more. They are given in units in which pushing
 is of order one: half a face, a radian, the distance of the push.

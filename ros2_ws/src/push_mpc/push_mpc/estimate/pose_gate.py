@@ -11,7 +11,7 @@ from push_mpc.settings import PoseGateSettings
 _MARGIN = 0.2  # [m] around the workspace of the tip, for the object and for overshoot
 _NORM_TOLERANCE = 0.01  # of a unit quaternion
 _LARGEST_TILT = math.radians(10.0)
-_UNSET = 1e6  # [s]; an older stamp is none, or one of simulated time
+_UNSET = 1e6  # [s]; an older stamp was not set, or is simulated time
 
 
 @dataclass(frozen=True)

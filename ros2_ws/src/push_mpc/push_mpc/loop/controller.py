@@ -101,7 +101,7 @@ class Controller:
             self.stop_reason = reason
 
     def hold(self, now: float) -> Tick:
-        """Commands zero at a time [s] because no fresh pose is there; the next pose continues."""
+        """Commands zero at a time [s], for want of a fresh pose; the next `step` continues."""
         self._remember(_STILL, now)
         return Tick(Mode.HOLDING, _STILL, now=now, input=_STILL)
 

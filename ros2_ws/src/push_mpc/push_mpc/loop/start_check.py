@@ -7,8 +7,8 @@ from push_core.physics import Slider
 
 FARTHEST = 0.02  # [m] of the object from the start of the plan
 LARGEST_TURN = math.radians(15.0)
-WIDEST_GAP = 0.1  # [m] between tip and face; it is closed at the speed of an approach
-DEEPEST = 2e-3  # [m] of the tip inside the object, measured
+WIDEST_GAP = 0.1  # [m] between tip and face; the approach to the face closes it
+DEEPEST = 2e-3  # [m]; deepest penetration of tip and object that measurement errors explain
 
 
 def start_fault(slider: Slider, start: Array, object_pose: Array, tip: Array) -> str:

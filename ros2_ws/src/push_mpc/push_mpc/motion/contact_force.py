@@ -1,9 +1,10 @@
 """Motion of slider and contact under a contact force, and its linearisation.
 
 State [x, y, theta, p_y], input [f_n, f_t, slip] (Hogan and Rodriguez 2016): the twist is that of
-the limit surface, t = grad H(J^T f), scaled as in the paper, where the size of the force tells the
-speed. The slip is that of the tip along the face, the paper's d(p_y)/dt; a round tip that does not
-turn rolls on the turning face besides: d(p_y)/dt = slip + omega * radius.
+the limit surface, t = grad H(J^T f), scaled as in the paper, where the magnitude of the force is
+proportional to the speed. The slip is that of the tip along the face. In the paper it equals
+d(p_y)/dt; a round tip that does not turn also rolls on the turning face, and
+d(p_y)/dt = slip + omega * radius.
 """
 
 from dataclasses import dataclass

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from geometry_msgs.msg import PoseStamped
 from push_node import interface
 from push_node.endpoints import GraphTopic
-from push_node.qos import HEARD_POSE
+from push_node.qos import POSE_SUBSCRIPTION
 from push_node.stamps import to_nanoseconds, to_seconds
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -61,8 +61,8 @@ class PosePair:
         self._tolerance = round(1e9 * (tolerance or 0.0))
         self._accepted = float('-inf')
         self.restart()
-        interface.OBJECT_POSE.subscription(node, self._on_object, qos=HEARD_POSE)
-        interface.PUSHER_POSE.subscription(node, self._on_tip, qos=HEARD_POSE)
+        interface.OBJECT_POSE.subscription(node, self._on_object, qos=POSE_SUBSCRIPTION)
+        interface.PUSHER_POSE.subscription(node, self._on_tip, qos=POSE_SUBSCRIPTION)
         if self._lockstep:
             interface.CLOCK.subscription(node, self._on_clock, qos=QoSProfile(depth=1))
 
@@ -94,7 +94,7 @@ class PosePair:
         return now, to_seconds(now - (now if self._origin is None else self._origin))
 
     def explanation(self) -> str:
-        """Why no pair is accepted, as far as it can be told."""
+        """Why no pair is accepted; empty if unknown."""
         if self.problem:
             return self.problem
         for topic, stamp in (

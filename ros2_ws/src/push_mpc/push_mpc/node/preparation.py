@@ -1,8 +1,8 @@
-"""Prepares models for the controller in a process of its own.
+"""Prepares models for the controller in a separate process.
 
-Planning anew and linearising a lap holds Python's interpreter lock for 4 ms at a time, in LAPACK's
-banded solver alone. In a thread the 10 ms loop would wait for that; and with the loop's real-time
-priority a second of it would use up what the kernel grants such threads, the loop included.
+Replanning a lap holds Python's interpreter lock for 4 ms at a time, in LAPACK's banded solver. In
+a thread of the node it would delay the 10 ms loop. It would also run for a second with the loop's
+real-time priority, and so use up the time that the kernel grants to real-time threads.
 """
 
 import contextlib
@@ -21,13 +21,14 @@ from push_mpc.table import Table
 
 
 class Preparation:
-    """Prepares the first model itself, before which nothing moves that could be late.
+    """Prepares the first model in the calling thread, later ones in a separate process.
 
-    The process takes about a second to start, which the first model need not wait for.
+    Before the first model nothing moves, so there is no loop to delay, and the model need not wait
+    the second that the process takes to start.
     """
 
     def __init__(self, settings: MpcSettings, controller: Controller) -> None:
-        """For one controller, made of these settings."""
+        """Prepares models for one controller and the settings that it was made with."""
         self._settings, self._controller = settings, controller
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -66,7 +67,7 @@ class Preparation:
 
 
 def _started() -> 'subprocess.Popen[bytes]':
-    # in a session of its own Ctrl-C does not reach it; it ends with its input
+    # a new session, so that Ctrl-C does not reach it; it ends when its standard input closes
     return subprocess.Popen(
         [sys.executable, '-m', __name__],
         stdin=subprocess.PIPE,
@@ -81,8 +82,8 @@ def _send(stream: IO[bytes], value: object) -> None:
 
 
 def main() -> None:
-    """Answers requests with prepared models until the node that makes them is gone."""
-    # a node with real-time priority hands it down
+    """Prepares a model for each request on standard input, until that closes."""
+    # the process inherits the node's real-time priority
     os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:

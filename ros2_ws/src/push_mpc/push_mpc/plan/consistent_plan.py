@@ -18,9 +18,9 @@ from push_mpc.plan.nominal import Plan
 
 _STEP = 0.001  # [m]; smallest length of an interval
 _ITERATIONS = 40
-_SHORTEST = 1e-3  # of a Gauss-Newton step
+_SHORTEST = 1e-3  # smallest share of a Gauss-Newton step
 _DONE = 1e-3  # relative decrease of the merit that ends the iteration
-_SLACK = 2e-6  # [m], [rad]; largest accepted defect of an interval
+_SLACK = 2e-6  # [m], [rad]; largest accepted defect (error of the equations of motion)
 _DEFECT_PRICE = 1e3
 _LARGEST_CHANGE = 0.5  # of [v_n, v_t] / speed from the guess
 _DAMPING = 1e-5  # of a change of [v_n, v_t] / speed

@@ -1,4 +1,4 @@
-"""The optimal plan: for tracks without a flat solution (sharp corners, given headings).
+"""The optimal plan: for tracks without a flat solution (sharp corners, prescribed headings).
 
 Direct collocation of the quasi-static motion (`contact_force.py`), solved by IPOPT before the run.
 The contact may stick, or slide where its force is on the edge of the friction cone; the object

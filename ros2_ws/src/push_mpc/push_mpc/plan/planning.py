@@ -1,4 +1,4 @@
-"""Makes the plan that the node's parameters ask for."""
+"""Plans along the track that the parameters of the node name."""
 
 import math
 
@@ -74,7 +74,7 @@ def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
         worst = int(np.argmax(values))
         if values[worst] > limit:
             raise InputError(
-                f'track {settings.track} at {settings.speed:g} m/s asks for '
+                f'track {settings.track} at {settings.speed:g} m/s needs '
                 f'{what.format(values[worst])} near {1e3 * settings.speed * plan.time[worst]:.0f} '
                 f'mm along it; the limit is {limit:g}, so take a lower speed or a wider track'
             )

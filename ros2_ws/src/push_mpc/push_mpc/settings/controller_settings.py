@@ -31,9 +31,9 @@ class Weights:
 class ForceWeights:
     """Diagonals of Q and R of the Family of Modes.
 
-    Its forces are those of the paper: twist = grad H(force) without a factor (lambda = 1), so that
-    their size stands for the speed. They are not the forces that the contact feels, and carry no
-    unit.
+    Its forces are those of the paper: twist = grad H(force) with the factor lambda = 1, so that
+    their magnitude is proportional to the speed. They are not contact forces in newtons, and have
+    no unit.
     """
 
     position_x: float = setting(6000.0, 'object position, x', unit='1/m^2', low=0.0, high=1e9)
@@ -104,7 +104,7 @@ class ControllerSettings:
     recontact: RecontactSettings = nested(RecontactSettings())
     actuator: ActuatorSettings = nested(
         ActuatorSettings(),
-        {'deceleration_limit': 'the prediction knows no stop by the driver'},
+        {'deceleration_limit': 'the delay prediction has no model of a stop by the driver'},
     )
     limits: SafetyLimits = nested(SafetyLimits())
     good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)

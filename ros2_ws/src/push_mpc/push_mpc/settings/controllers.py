@@ -10,7 +10,7 @@ class ControllerKind:
 
     Attributes:
         steering: its class as 'module:name', imported when it is used: settings load no solver.
-        text: what it uses.
+        text: what it optimises, for help and documents.
         trained_model: whether it needs a trained model of the object.
     """
 
@@ -20,8 +20,10 @@ class ControllerKind:
 
 
 CONTROLLERS: Mapping[str, ControllerKind] = {
-    'gp': ControllerKind('push_mpc.qp:VelocitySteering', 'model of the server', True),
+    'gp': ControllerKind(
+        'push_mpc.qp:VelocitySteering', 'one QP over the tip velocity, with the served model', True
+    ),
     'analytical': ControllerKind(
-        'push_mpc.qp:ForceSteering', 'limit surface, Family of Modes', False
+        'push_mpc.qp:ForceSteering', 'Family of Modes over contact force and slip', False
     ),
 }

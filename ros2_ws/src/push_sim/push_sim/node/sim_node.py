@@ -66,7 +66,7 @@ class SimNode(Node):  # type: ignore[misc]
         self._plant.close()
 
     def _make_publishers(self) -> None:
-        # before the poses, so that a recorder that has found these has found it too
+        # before the poses: a recorder that has discovered the poses has then discovered it too
         self._truth = interface.GROUND_TRUTH.publisher(self)
         self._truth_message = GroundTruthMessage(self._slider)
         self._object = interface.OBJECT_POSE.publisher(self)
