@@ -47,6 +47,7 @@ class Synthetic:
 
     path: object = on_circle
     duration: float = 1.5
+    laps: int = 1
     displaced: object = lambda pose, time: pose
     truth: object = None  # true pose (3,), of the displaced pose and the time
     gap: object = lambda time: 0.0
@@ -56,6 +57,7 @@ class Synthetic:
     numbered: bool = True
     limited: object = lambda tick: 0
     modes: object = None
+    foreign: object = lambda tick: ()  # commands of another: stamp [ns] after the pose, v_x
     perturbed_at: float | None = None
     stop_reason: str = ''  # that the controller states at the end
     end_reason: str = ''  # that the cell states
@@ -85,6 +87,8 @@ class Recorder:
         self.bag = BagWriter(folder, facts | synthetic.facts, {'params.yaml': b'a: 1\n'})
         self.synthetic = synthetic
         self.sequences = dict.fromkeys(CORE, 0)
+        # of a further start: ticks since the first one
+        self.waited = self.stamp_shift = self.counted = 0
         for topic in CORE.values():
             if topic.name == TRUTH and synthetic.truth is None:
                 continue
@@ -92,7 +96,7 @@ class Recorder:
 
     def message(self, name, tick):
         message = message_class(CORE[name].type_name)()
-        stamp = STAMP_0 + tick * PERIOD_NS
+        stamp = STAMP_0 + (tick + self.stamp_shift) * PERIOD_NS
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
         message.header.frame_id = 'world'
         return message
@@ -101,17 +105,26 @@ class Recorder:
         self.sequences[name] += 1
         if tick in self.synthetic.missing.get(name, ()):
             return
-        sent = WALL_0 + tick * PERIOD_NS + delay_ns
+        sent = WALL_0 + (tick + self.waited) * PERIOD_NS + delay_ns
         number = self.sequences[name] if self.synthetic.numbered else 0
         self.bag.write(f'/{name}', serialize_message(message), sent + 100_000, sent, number)
 
-    def record(self):
+    def record(self, *further):
+        """Writes the run, then further ones, each with the shifts (waited, stamp, count)."""
         with self.bag:
-            self.write('nominal_trajectory', 0, self.reference())
-            self.write('model_info', 0, self.model())
-            for tick in range(self.synthetic.ticks):
-                self.record_tick(tick)
-            self.write('run_end', tick, String(data=self.synthetic.end_reason))
+            self.record_start()
+            for synthetic, shifts in further:
+                self.synthetic = synthetic
+                self.waited, self.stamp_shift, self.counted = shifts
+                self.record_start()
+            end = String(data=self.synthetic.end_reason)
+            self.write('run_end', self.synthetic.ticks - 1, end)
+
+    def record_start(self):
+        self.write('nominal_trajectory', 0, self.reference())
+        self.write('model_info', 0, self.model())
+        for tick in range(self.synthetic.ticks):
+            self.record_tick(tick)
 
     def record_tick(self, tick):
         synthetic = self.synthetic
@@ -126,9 +139,13 @@ class Recorder:
             self.write(TRUTH, tick, truth)
         if tick not in synthetic.unanswered:
             delay = synthetic.command_delay_ns(tick)
-            self.write(
-                'pusher_velocity_cmd', tick, self.message('pusher_velocity_cmd', tick), delay
-            )
+            command = self.message('pusher_velocity_cmd', tick)
+            self.write('pusher_velocity_cmd', tick, command, delay)
+            for stamp_ns, velocity in synthetic.foreign(tick):
+                other = self.message('pusher_velocity_cmd', tick)
+                other.header.stamp.nanosec += stamp_ns
+                other.twist.linear.x = velocity
+                self.write('pusher_velocity_cmd', tick, other, delay + 100_000)
         self.write('controller_state', tick, self.state(tick, time), 2_000_000)
         if tick % 5 == 0:
             self.write('horizon', tick, self.horizon(tick, time), 2_100_000)
@@ -153,7 +170,8 @@ class Recorder:
 
     def state(self, tick, time):
         state = self.message('controller_state', tick)
-        state.tick, state.mode, state.reference_time = tick, self.synthetic.mode(tick), time
+        state.tick, state.mode = tick + self.counted, self.synthetic.mode(tick)
+        state.reference_time = time
         state.input = state.nominal_input = [0.08, 0.0]
         state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
         state.solver_status, state.limited = 1, self.synthetic.limited(tick)
@@ -171,7 +189,7 @@ class Recorder:
     def reference(self):
         plan = self.message('nominal_trajectory', 0)
         plan.track, plan.controller, plan.speed = 'eight', 'gp', 0.08
-        plan.side, plan.tip_radius, plan.laps = SIDE, TIP, 1
+        plan.side, plan.tip_radius, plan.laps = SIDE, TIP, self.synthetic.laps
         times = np.arange(self.synthetic.reference_ticks + 1) / 100
         poses = np.array([self.synthetic.path(time) for time in times])
         plan.time, plan.x, plan.y, plan.theta = times, *(column.copy() for column in poses.T)
@@ -195,6 +213,18 @@ def recording_in(parent):
         return folder
 
     return record_run
+
+
+@pytest.fixture
+def record_starts(tmp_path):
+    """Records several starts in one bag: `record_starts(changes, (changes, shifts), …)`."""
+
+    def record_bag(first, *further) -> Path:
+        others = [(Synthetic(**changes), shifts) for changes, shifts in further]
+        Recorder(tmp_path / 'starts', Synthetic(**first)).record(*others)
+        return tmp_path / 'starts'
+
+    return record_bag
 
 
 @pytest.fixture

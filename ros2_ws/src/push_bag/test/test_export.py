@@ -41,3 +41,12 @@ def test_a_bag_without_reference_and_a_missing_kind_are_refused(record, tmp_path
     assert capsys.readouterr().err.count('\n') == 1
     with pytest.raises(SystemExit):
         main([str(run), '-o', str(tmp_path / 'run.csv')])
+
+
+def test_of_several_starts_one_is_chosen(record_starts, tmp_path, capsys):
+    bag = str(record_starts({}, ({'duration': 0.5}, (400, 400, 400))))
+    words = [bag, '--csv', '-o', str(tmp_path / 'run.csv')]
+    assert main(words) == 2
+    assert 'the bag holds 2 starts; choose one with --start' in capsys.readouterr().err
+    assert main([*words, '--start', '2']) == 0
+    assert capsys.readouterr().out.startswith('91 rows')

@@ -39,7 +39,7 @@ class Cell:
         self.poses_on = self.recording = False
         self.spoil: Callable[[PoseStamped], None] = lambda message: None
         self.spoil_tip: Callable[[PoseStamped], None] = lambda message: None
-        self.model_id = ''
+        self.model_id = self.recorder_fault = ''
         self.states: list[ControllerState] = []
         self.commands: list[TwistStamped] = []
         self.plans: list[NominalTrajectory] = []
@@ -93,6 +93,8 @@ class Cell:
     def _report(self) -> None:
         if self.recording:
             status = DiagnosticStatus(level=DiagnosticStatus.OK, name='/recorder: recording')
+            if self.recorder_fault:
+                status.level, status.message = DiagnosticStatus.ERROR, self.recorder_fault
             self._health.publish(DiagnosticArray(status=[status]))
 
     def announce_model(self, model_id: str = 'cone') -> None:
@@ -279,6 +281,33 @@ def test_stop_stops_at_once(cell, started) -> None:
     cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
     assert cell.states[-1].stop_reason == 'stopped on request'
     cell.wait(lambda: is_zero(cell.commands[-1]))
+
+
+def test_it_stops_when_the_recorder_falls_silent(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.recording, silent_since = False, time.monotonic()
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert time.monotonic() - silent_since < 10.0, 'it came much later than the limit of 2 s'
+    assert cell.states[-1].stop_reason == 'no report from the recorder for 2 s'
+    cell.wait(lambda: is_zero(cell.commands[-1]))
+    assert cell.call('resume').success
+    assert cell.call('start').message == 'waiting for the recorder'
+
+
+def test_it_stops_when_the_recorder_reports_a_failure(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.recorder_fault = 'no space left on device'
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert cell.states[-1].stop_reason == ('the recorder does not record: no space left on device')
+
+
+def test_without_a_required_recorder_its_end_is_no_stop(cell, started) -> None:
+    started(LINE, 'require_recorder:=false')
+    cell.begin()
+    cell.recording = False
+    assert not cell.happens(lambda: cell.mode() == ControllerState.STOPPED, 3.0)
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])

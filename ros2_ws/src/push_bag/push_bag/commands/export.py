@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from push_core.common import InputError, Parser, run_command, write_atomically
 
-from push_bag.run import read_run
+from push_bag.run import RunSeries, read_starts
 from push_bag.score import TickTable, tick_table
 
 EPILOG = """
@@ -69,15 +69,32 @@ def _parser() -> Parser:
             f'--{name}', dest='write', action='store_const', const=write, help=f'as {name.upper()}'
         )
     parser.add_argument(
+        '--start', type=int, metavar='N', help='the start to write, from 1, of a bag with several'
+    )
+    parser.add_argument(
         '-o', '--output', type=Path, required=True, metavar='FILE', help='the file to write'
     )
     return parser
 
 
 def _work(arguments: argparse.Namespace) -> None:
-    table = tick_table(read_run(arguments.run))
+    table = tick_table(_chosen(read_starts(arguments.run), arguments.start))
     write_atomically(arguments.output, arguments.write(table))
     sys.stdout.write(f'{len(table["t_s"])} rows\n{arguments.output}\n')
+
+
+def _chosen(starts: Sequence[RunSeries], number: int | None) -> RunSeries:
+    """The start with a number, or the only one.
+
+    Raises:
+        InputError: there is no such start, or none was chosen of several.
+    """
+    if number is None and len(starts) > 1:
+        raise InputError(f'the bag holds {len(starts)} starts; choose one with --start')
+    chosen = 1 if number is None else number
+    if not 1 <= chosen <= len(starts):
+        raise InputError(f'there is no start {chosen}: the bag holds {len(starts)}')
+    return starts[chosen - 1]
 
 
 if __name__ == '__main__':

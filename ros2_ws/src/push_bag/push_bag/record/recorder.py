@@ -24,7 +24,7 @@ from push_bag.record.recording import Recording
 
 DISCOVERY_PERIOD = 0.1  # [s] until all core topics of the cell are recorded
 LATER_DISCOVERY_PERIOD = 1.0  # [s] afterwards
-REPORT_PERIOD = 1.0  # [s]
+REPORT_PERIOD = 0.5  # [s]; mpc_node stops after 2 s without a report
 
 
 class Recorder(Node):  # type: ignore[misc]

@@ -15,8 +15,8 @@ from push_bag.report.lap_figure import lap_figure
 from push_bag.report.reported_run import ReportedRun, Scored, reported_runs, title
 from push_bag.report.time_figure import time_figure
 from push_bag.report.timing_figure import timing_figure
-from push_bag.run import read_run
-from push_bag.score import messages_line, score_rows, score_series
+from push_bag.run import read_starts
+from push_bag.score import bag_score, messages_line, score_rows, score_series
 
 SCORE_FILE = 'score.json'
 REPORT_FILE = 'report.html'
@@ -40,11 +40,12 @@ def write_results(folder: Path, reason: str = '') -> dict[str, Any]:
     Raises:
         InputError: there is no readable bag or no reference in it, or a file cannot be written.
     """
-    run = read_run(folder)
-    score = score_series(run)
-    score['stop_reason'] = score['stop_reason'] or reason or None
+    scored = [(run, score_series(run)) for run in read_starts(folder)]
+    last = scored[-1][1]
+    last['stop_reason'] = last['stop_reason'] or reason or None
+    score = bag_score([each for _, each in scored])
     write_atomically(folder / SCORE_FILE, json_text(score).encode())
-    write_atomically(folder / REPORT_FILE, report_html([(run, score)]).encode())
+    write_atomically(folder / REPORT_FILE, report_html(scored).encode())
     return score
 
 
@@ -97,8 +98,11 @@ def _in_short(run: ReportedRun) -> str:
 def _verdict(score: Mapping[str, Any]) -> str:
     if score['completed']:
         return 'completed'
+    reason = score['reasons'].get('completed')
     if score['completed'] is None:
-        return escape(f'not known whether completed: {score["reasons"]["completed"]}')
+        return escape(f'not known whether completed: {reason}')
+    if reason:
+        return escape(f'not completed: {reason}')
     return escape(f'stopped: {score["stop_reason"]}' if score['stop_reason'] else 'not completed')
 
 

@@ -3,7 +3,7 @@
 from push_bag.run.conversions import nanoseconds
 from push_bag.run.horizons import Horizons
 from push_bag.run.recorded_ticks import ByStamp, RecordedRun, RecordedTick
-from push_bag.run.run_reader import read_run
+from push_bag.run.run_reader import read_run, read_starts
 from push_bag.run.series import (
     Floats,
     Nanoseconds,
@@ -26,4 +26,5 @@ __all__ = [
     'Stamped',
     'nanoseconds',
     'read_run',
+    'read_starts',
 ]

@@ -29,7 +29,7 @@ POSE_FIELDS = (
 ORIENTED_POSE_FIELDS = (*POSE_FIELDS, 'pose.orientation.x', 'pose.orientation.y')
 TWIST_FIELDS = (*STAMP, 'twist.linear.x', 'twist.linear.y')
 TRUTH_FIELDS = (*STAMP, 'pose')
-SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited')
+SOLVER_FIELDS = ('solve_ms', 'tick_ms', 'iterations', 'solver_status', 'limited', 'tick')
 STATE_FIELDS = (
     *STAMP,
     'mode',
@@ -85,7 +85,7 @@ def velocities(columns: Columns) -> Floats:
 
 
 def ticks(columns: Columns) -> Floats:
-    """Controller states (n, 12) with the columns STATE_COLUMNS."""
+    """Controller states (n, 13) with the columns STATE_COLUMNS."""
     parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
     parts += [columns['input'], columns['nominal_input']]
     parts += [columns[name] for name in SOLVER_FIELDS]

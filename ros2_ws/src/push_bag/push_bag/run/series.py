@@ -16,6 +16,7 @@ from push_bag.file import Record, Traffic
 
 Floats = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
+NEVER = 2**63 - 1  # a time [ns] after all others
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,14 @@ class Stamped:
     stamp: Nanoseconds
     published: Nanoseconds
     values: Floats
+
+    def rows(self, chosen: slice | NDArray[np.intp] | NDArray[np.bool_]) -> 'Stamped':
+        """The rows with these indices."""
+        return Stamped(self.stamp[chosen], self.published[chosen], self.values[chosen])
+
+    def by_stamp(self) -> 'Stamped':
+        """The rows ordered by stamp; of rows with equal stamps the first one."""
+        return self.rows(np.unique(self.stamp, return_index=True)[1])
 
     def at(self, stamps: Nanoseconds) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
         """Indices (m,) of messages with these stamps (m,), and whether each exists (m,)."""
@@ -108,6 +117,7 @@ STATE_COLUMNS = (
     'iterations',
     'solver_status',
     'limited',
+    'tick',
 )
 
 
@@ -128,6 +138,7 @@ class RunSeries:
         states: (n, len(STATE_COLUMNS)) of the controller's ticks, see `state`.
         stop_reason: why the cell ended the run early, else why the controller stopped last; empty
             if neither is recorded.
+        foreign_commands: number of commands that answer no tick of the controller.
         reference: None where none was recorded.
         model: None where none was recorded.
         perturbations: in order.
@@ -144,6 +155,7 @@ class RunSeries:
     commands: Stamped
     states: Stamped
     stop_reason: str
+    foreign_commands: int
     reference: Reference | None
     model: ModelFacts | None
     perturbations: tuple[PerturbationEvent, ...]

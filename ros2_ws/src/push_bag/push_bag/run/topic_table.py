@@ -9,7 +9,7 @@ from push_core.common import InputError
 
 from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves, schema_text
 from push_bag.run.conversions import stamps
-from push_bag.run.series import Floats, Stamped
+from push_bag.run.series import NEVER, Floats, Stamped
 
 BATCH = 4096  # messages decoded at once; bounds the memory
 
@@ -50,15 +50,23 @@ class TopicTable:
         if len(self._messages) >= BATCH:
             self._decode()
 
-    def stamped(self) -> Stamped:
+    def stamped(self, begin: int = 0, end: int = NEVER) -> Stamped:
         """The messages ordered by stamp; of messages with equal stamps the first one.
+
+        Args:
+            begin: log time of the first message [ns].
+            end: log time before which the messages end [ns].
 
         Raises:
             InputError: a message is not of its topic's type.
         """
-        rows = self.in_log_order()
-        _, first = np.unique(rows.stamp, return_index=True)
-        return Stamped(rows.stamp[first], rows.published[first], rows.values[first])
+        chosen = slice(*np.searchsorted(self.logged, (begin, end)).tolist())
+        return self.in_log_order().rows(chosen).by_stamp()
+
+    @property
+    def logged(self) -> NDArray[np.int64]:
+        """Log times (n,) of the messages [ns], in order."""
+        return np.sort(np.frombuffer(self._logged, np.uint64)).astype(np.int64)
 
     @property
     def log_order(self) -> NDArray[np.intp]:

@@ -3,7 +3,7 @@
 from push_bag.score.bounds import bound, check_bounds
 from push_bag.score.contact import Contact, contact, loss_intervals
 from push_bag.score.runs_table import Scores, comparison_table, runs_object, runs_table
-from push_bag.score.score import score_run, score_series
+from push_bag.score.score import bag_score, score_run, score_series
 from push_bag.score.score_table import messages_line, score_rows, score_table
 from push_bag.score.tick_table import TickTable, tick_table
 from push_bag.score.timing import DEADLINE, LoopTiming, timing
@@ -16,6 +16,7 @@ __all__ = [
     'Scores',
     'TickTable',
     'Tracking',
+    'bag_score',
     'bound',
     'check_bounds',
     'comparison_table',

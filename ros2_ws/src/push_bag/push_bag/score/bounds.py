@@ -67,7 +67,7 @@ def figure(score: Mapping[str, Any], name: str) -> float:
         if not isinstance(value, Mapping) or part not in value:
             raise InputError(f'a score has no figure {name!r}; name one such as {COMPARED[0]}')
         value = value[part]
-    if isinstance(value, Mapping | str) or name in WORDS:
+    if isinstance(value, Mapping | str | list) or name in WORDS:
         raise InputError(f'{name!r} is not a number; name a figure such as {COMPARED[0]}')
     return math.nan if value is None else float(value)
 

@@ -29,6 +29,19 @@ def message_counts(run: RunSeries) -> dict[str, dict[str, int | None]]:
     }
 
 
+def foreign_commands(run: RunSeries) -> int:
+    """Number of commands that another publisher sent: they answer no tick of the controller.
+
+    Ticks that were lost on their way to the recorder do not count against their commands.
+    """
+    if not run.foreign_commands:
+        return 0
+    states = interface.CONTROLLER_STATE.short_name
+    counts = message_counts(run)
+    lost = sum(each['lost'] or 0 for name, each in counts.items() if short_name(name) == states)
+    return max(0, run.foreign_commands - lost)
+
+
 def missing_stamps(stamps: Nanoseconds | None) -> int | None:
     """Messages missing from a topic that has one each POSE_PERIOD_NS, by its stamps (n,) [ns]."""
     if stamps is None:

@@ -1,4 +1,4 @@
-"""Why a score lacks a figure, and how many poses it leaves out."""
+"""Why a score lacks a figure or a run does not count, and how many poses are left out."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -10,6 +10,7 @@ from push_node import interface
 from push_node.endpoints import GraphTopic, short_name
 
 from push_bag.run import RunSeries, Stamped
+from push_bag.score.message_counts import foreign_commands
 from push_bag.score.timing import WITHOUT_MIDDLEWARE
 from push_bag.score.tracking import during_tracking, tracking_interval
 
@@ -36,11 +37,14 @@ def left_out(run: RunSeries) -> dict[str, dict[str, int]]:
 def reasons(run: RunSeries, score: Mapping[str, Any]) -> dict[str, str]:
     """Why each figure is missing that the score lacks, by its name in the score.
 
+    `completed` has a reason, too, if another publisher commanded the tip.
+
     Args:
         run: that was scored.
         score: its figures.
     """
-    return {name: reason(run) for name, reason in REASONS.items() if _is_missing(score[name])}
+    missing = {name: reason(run) for name, reason in REASONS.items() if _is_missing(score[name])}
+    return missing | _of_foreign_commands(run)
 
 
 def topic_reason(types: Mapping[str, str], topic: GraphTopic) -> str:
@@ -72,6 +76,16 @@ def _is_missing(value: Any) -> bool:
         values = list(value.values())
         return bool(values) and all(each is None for each in finite(values))
     return value is None or (isinstance(value, float) and math.isnan(value))
+
+
+def _of_foreign_commands(run: RunSeries) -> dict[str, str]:
+    count = foreign_commands(run)
+    if not count:
+        return {}
+    return {
+        'completed': f'{count} commands of another publisher on '
+        f'{interface.PUSHER_VELOCITY_CMD.short_name}: they answer no tick of the controller'
+    }
 
 
 def _of_errors(run: RunSeries) -> str:

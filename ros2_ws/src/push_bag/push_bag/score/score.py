@@ -1,11 +1,13 @@
 """The score of a run: one JSON object.
 
 Formulas: tracking.py, contact.py, timing.py, message_counts.py. `completed`: the controller
-reached mode DONE without a stop, and the end of the run satisfies `push_core.tracks.is_completed`.
+reached mode DONE without a stop, no other publisher commanded the tip, and the end of the run
+satisfies `push_core.tracks.is_completed`.
 A figure that a run does not have is None; `reasons` says why.
 """
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +17,10 @@ from push_core.tracks import is_completed
 from push_msgs.msg import ControllerState
 from push_node import interface
 
-from push_bag.run import Floats, Reference, RunSeries, read_run
+from push_bag.run import Floats, Reference, RunSeries, read_starts
 from push_bag.score.contact import contact, loss_intervals
-from push_bag.score.message_counts import message_counts
+from push_bag.score.laps import per_lap
+from push_bag.score.message_counts import foreign_commands, message_counts
 from push_bag.score.reasons import left_out, other_topics, reasons
 from push_bag.score.timing import timing
 from push_bag.score.tracking import Tracking, tracking_errors, true_tracking_errors
@@ -42,7 +45,16 @@ def score_run(folder: Path) -> dict[str, Any]:
     Raises:
         InputError: there is no readable bag, or no reference in it.
     """
-    return score_series(read_run(folder))
+    return bag_score([score_series(start) for start in read_starts(folder)])
+
+
+def bag_score(starts: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """The score of a bag: that of its last start, with a list of all where there are several.
+
+    Args:
+        starts: the scores of the starts in the bag, in order; at least one.
+    """
+    return starts[-1] | ({'starts': list(starts)} if len(starts) > 1 else {})
 
 
 def score_series(run: RunSeries) -> dict[str, Any]:
@@ -62,6 +74,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         **_setting(run, run.reference),
         **_errors(tracking),
         'truth': None if truth is None else _distances(truth),
+        'per_lap': per_lap(run.reference, tracking, truth),
         **_times(run),
         'contact_losses': contact_losses(run, run.reference),
         'holds': holds(run),
@@ -76,6 +89,8 @@ def score_series(run: RunSeries) -> dict[str, Any]:
 
 def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool | None:
     """Whether the run was completed, see `push_core.tracks.is_completed`; None if unknown."""
+    if foreign_commands(run):
+        return False
     modes = run.state('mode')
     arrived, stopped = ControllerState.DONE in modes, ControllerState.STOPPED in modes
     if modes.size and (stopped or not arrived):

@@ -1,6 +1,6 @@
 """The score of a run as text."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from push_core.common import plain_table
@@ -22,6 +22,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('model', _known(score, 'model', _model)),
         ('duration', _known(score, 'duration_s', _seconds)),
         ('tracking error', _known(score, 'tracking_error_mm', _millimetres)),
+        ('each lap', _laps(score['per_lap'])),
         ('error of the true pose', _known(score, 'truth', _millimetres)),
         ('cross-track error', _known(score, 'cross_track_mm', _millimetres)),
         ('heading error', _known(score, 'heading_error_deg', _degrees)),
@@ -62,6 +63,12 @@ def _known(score: Mapping[str, Any], name: str, text: Callable[[Any], str]) -> s
     return f'none: {reason}' if reason else text(score[name])
 
 
+def _laps(laps: Sequence[Mapping[str, Any]]) -> str:
+    """Mean error of each lap; empty for one lap."""
+    means = '  '.join(_number(lap['mean_mm']) for lap in laps)
+    return f'mean {means}  mm' if len(laps) > 1 else ''
+
+
 def _left_out(topics: Mapping[str, Mapping[str, int]]) -> str:
     """How many poses are not used; empty if all are."""
     texts = {'not_finite': 'not a number', 'no_heading': 'no unit quaternion or not upright'}
@@ -82,8 +89,11 @@ def _bag(score: Mapping[str, Any]) -> str:
 def _verdict(score: Mapping[str, Any]) -> str:
     if score['completed']:
         return 'yes'
+    reason = score['reasons'].get('completed')
     if score['completed'] is None:
-        return f'not known: {score["reasons"]["completed"]}'
+        return f'not known: {reason}'
+    if reason:
+        return f'no: {reason}'
     return f'no, stopped: {score["stop_reason"]}' if score['stop_reason'] else 'no'
 
 

@@ -36,7 +36,7 @@ from push_mpc.table import Tabulated
 
 FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
-GRAPH_PERIOD = 0.2  # [s] between two looks for other commanders
+GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
 _MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
 
 
@@ -101,7 +101,7 @@ class MpcNode(Node):  # type: ignore[misc]
     def _start_timers(self) -> None:
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
-        self.create_timer(GRAPH_PERIOD, self._watch_graph, clock=steady)
+        self.create_timer(GRAPH_PERIOD, self._watch_others, clock=steady)
         if not self._lockstep:
             self.create_timer(self._watchdog.period, self._watch, clock=steady)
 
@@ -132,12 +132,16 @@ class MpcNode(Node):  # type: ignore[misc]
         if self._lockstep and self._controller.mode in _MOVING:
             self._halt(reason)
 
-    def _watch_graph(self) -> None:
-        """Stops when another node commands the tip as well; writes what the loop did not log."""
-        rivals = self._graph.warning()
-        if rivals and self._controller.mode in _MOVING:
-            self._halt(rivals)
+    def _watch_others(self) -> None:
+        """Stops when another node commands the tip or none records; writes the mode log."""
+        fault = self._graph.warning() or self._unrecorded()
+        if fault and self._controller.mode in _MOVING:
+            self._halt(fault)
         self._mode_log.write(self.get_logger())
+
+    def _unrecorded(self) -> str:
+        """Why nothing is recorded although it must be, empty if it is."""
+        return self._recorder.failure() if self._settings.require_recorder else ''
 
     def _repeat(self) -> None:
         """Sends the last command again: the simulator did not receive it."""

@@ -7,7 +7,8 @@ from push_node import interface
 from push_node.diagnostics import status_name
 from rclpy.node import Node
 
-_FRESH = 3.0  # [s]; the recorder reports once a second
+FRESH = 2.0  # [s]; the recorder reports twice a second
+_GRACE = 0.3  # [s] in which reports that waited during a freeze of the host are still read
 
 
 class RecorderWatch:
@@ -16,16 +17,34 @@ class RecorderWatch:
     def __init__(self, node: Node) -> None:
         namespace = node.get_namespace().rstrip('/')
         self._name = status_name(f'{namespace}/recorder', 'recording')
-        self._last_good = -_FRESH
+        self._last_good = -FRESH
+        self._message = ''
+        self._quiet_since: float | None = None
         interface.DIAGNOSTICS.subscription(node, self._on_diagnostics)
 
     @property
     def is_recording(self) -> bool:
-        """Whether the recorder reported OK within the last 3 s."""
-        return time.monotonic() - self._last_good < _FRESH
+        """Whether the recorder reported OK within FRESH."""
+        return time.monotonic() - self._last_good < FRESH
+
+    def failure(self) -> str:
+        """Why nothing is recorded, for _GRACE now; empty while it is. Call it periodically."""
+        if self.is_recording:
+            self._quiet_since = None
+            return ''
+        now = time.monotonic()
+        if self._quiet_since is None:
+            self._quiet_since = now
+        return self._reason() if now - self._quiet_since >= _GRACE else ''
+
+    def _reason(self) -> str:
+        if self._message:
+            return f'the recorder does not record: {self._message}'
+        return f'no report from the recorder for {FRESH:g} s'
 
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         for status in array.status:
             if status.name == self._name:
                 good = status.level == DiagnosticStatus.OK
-                self._last_good = time.monotonic() if good else -_FRESH
+                self._last_good = time.monotonic() if good else -FRESH
+                self._message = '' if good else status.message

@@ -48,7 +48,7 @@ class MpcSettings(ControllerSettings):
         0.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
     poses: PoseGateSettings = nested(PoseGateSettings())
-    require_recorder: bool = setting(True, 'start only while the recorder records')
+    require_recorder: bool = setting(True, 'move only while the recorder records')
     slider: Slider = nested(Slider())
 
     def __post_init__(self) -> None:
