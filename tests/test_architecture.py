@@ -16,11 +16,9 @@ MODULES = {
 LARGEST_FOLDER = 14
 # they load ROS, plotly or another heavy library, which only some users of their wing need
 IMPORTED_BY_NAME = {
-    'push_bag.commands.info',
     'push_bag.live.live_server',
     'push_bag.record.recorder',
     'push_bag.record.recording',
-    'push_bag.repair.recover',
     'push_bag.replay.node_comparison',
     'push_bringup.graph.starter',
     'push_gp.server.conversions',
@@ -71,3 +69,16 @@ def test_modules_import_from_other_wings_what_these_export() -> None:
         if imported not in IMPORTED_BY_NAME and not importer.endswith('__init__')
     }
     assert past_the_wing == set()
+
+
+def test_no_two_classes_share_a_name() -> None:
+    places: dict[str, list[str]] = defaultdict(list)
+    for module in MODULES:
+        for node in parsed(module).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith('_'):
+                places[node.name].append(module)
+    assert {name: where for name, where in places.items() if len(where) > 1} == {}
+
+
+def test_what_is_imported_by_name_still_is() -> None:
+    assert IMPORTED_BY_NAME <= {imported for _, imported in imports_across_wings()}

@@ -11,7 +11,7 @@ from mcap.writer import CompressionType, Writer
 from push_core.common import InputError, RunError
 
 from push_bag.file.message_types import Definition, installed_definition
-from push_bag.file.rosbag2_metadata import Span, write_metadata
+from push_bag.file.rosbag2_metadata import TimeSpan, write_metadata
 from push_bag.file.topic_registry import Topic, TopicRegistry
 from push_bag.stream import Attachment, write_attachment
 
@@ -220,7 +220,7 @@ class BagWriter:
     def _finish(self) -> None:
         self._writer.finish()  # type: ignore[no-untyped-call]
         self._close_stream()
-        span = Span(self._first_ns or 0, self._last_ns)
+        span = TimeSpan(self._first_ns or 0, self._last_ns)
         try:
             write_metadata(
                 self.folder,

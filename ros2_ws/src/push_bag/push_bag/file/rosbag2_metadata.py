@@ -37,7 +37,7 @@ class TopicSummary:
 
 
 @dataclass(frozen=True)
-class Span:
+class TimeSpan:
     """First and last log time of a bag [ns]; both 0 if it is empty."""
 
     start_ns: int
@@ -48,7 +48,7 @@ def write_metadata(
     folder: Path,
     bag_name: str,
     topics: Sequence[TopicSummary],
-    span: Span,
+    span: TimeSpan,
     facts: Mapping[str, str],
 ) -> None:
     """Writes `metadata.yaml` to the run's folder, completely or not at all.
@@ -68,7 +68,7 @@ def write_metadata(
     write_atomically(folder / FILE_NAME, text.encode())
 
 
-def _information(bag_name: str, topics: Sequence[TopicSummary], span: Span) -> dict[str, Any]:
+def _information(bag_name: str, topics: Sequence[TopicSummary], span: TimeSpan) -> dict[str, Any]:
     count = sum(topic.count for topic in topics)
     return {
         'version': VERSION,
@@ -83,7 +83,7 @@ def _information(bag_name: str, topics: Sequence[TopicSummary], span: Span) -> d
     }
 
 
-def _contents(count: int, span: Span) -> dict[str, Any]:
+def _contents(count: int, span: TimeSpan) -> dict[str, Any]:
     return {
         'starting_time': {'nanoseconds_since_epoch': span.start_ns},
         'duration': {'nanoseconds': span.end_ns - span.start_ns},
