@@ -83,7 +83,7 @@ def work(arguments: argparse.Namespace) -> None:
         from push_report.page import write_page  # noqa: PLC0415
 
         lines = ablation_rows(finite(results)).splitlines()
-        write_page(arguments.html, 'What each part is worth', lines, ())
+        write_page(arguments.html, 'The effect of each part', lines, ())
     print_results(arguments, 'ablation', results)
 
 

@@ -17,5 +17,5 @@ def solver_times_page(rows: Sequence[SolverRow]) -> str:
         figure.add_scatter(x=times, y=slower, name=row.name, line_shape='hv')
     figure.update_xaxes(title='update and solve, CPU time [ms]', type='log')
     figure.update_yaxes(title='share of ticks that took longer', type='log')
-    figure.update_layout(title='The QPs of one lap with kicks', template='simple_white')
+    figure.update_layout(title='The QPs of one lap with perturbations', template='simple_white')
     return str(figure.to_html(include_plotlyjs=True, full_html=True))

@@ -1,4 +1,4 @@
-"""Records the QPs of a lap with kicks, tick by tick."""
+"""Records the QPs of a lap with perturbations, tick by tick."""
 
 from pathlib import Path
 

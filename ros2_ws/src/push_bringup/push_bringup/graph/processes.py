@@ -112,7 +112,7 @@ class Processes:
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]
         if self._namespace:
-            # rclpy takes long to import, and the other cells need none of it here
+            # rclpy takes long to import, and a cell without a namespace does not need it here
             from push_node.interface import CLOCK  # noqa: PLC0415
 
             # each cell has its own simulated time

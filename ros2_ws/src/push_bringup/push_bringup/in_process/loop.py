@@ -23,12 +23,12 @@ class InProcessCell:
     """Plant and controller in one loop; the trajectory equals that of lockstep.
 
     Attributes:
-        plant: object, tip and sensors.
+        plant: world, robot and cameras.
         controller: commands the tip.
     """
 
     def __init__(self, parameters: CellParameters, model: PushModel, plan: Plan) -> None:
-        """Makes plant and controller; the plan must be of the same parameters."""
+        """Makes plant and controller; the plan must be made from the same parameters."""
         mpc = parameters.mpc
         self.plant = Plant(parameters.sim, parameters.sim.slider)
         self.controller = Controller(mpc, mpc.slider, plan)

@@ -64,9 +64,9 @@ SECTIONS = (
     ),
     Section(
         'ablation',
-        'What each part is worth',
+        'The effect of each part',
         'The GP controller with parts switched off, profile `irb120`. `preset paper` has the '
-        'literal weights, horizon and plan of the paper; control.md says why they do not track. '
+        'literal weights, horizon and plan of the paper; control.md explains its errors. '
         'The last column is the rms change of the commanded velocity from tick to tick, on the '
         'eight at 80 mm/s.',
         'ablation',
@@ -75,7 +75,7 @@ SECTIONS = (
     Section(
         'solver_gp',
         'The QP solver: GP controller',
-        'All QPs of a lap with kicks: update and solve, CPU time of one thread.',
+        'All QPs of a lap with perturbations: update and solve, CPU time of one thread.',
         'timing',
         ('--controller', 'gp'),
     ),
