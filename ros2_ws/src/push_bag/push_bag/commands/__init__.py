@@ -1,1 +1,1 @@
-"""The commands of this package: score, info, export, replay, live, import-csv."""
+"""The commands of this package: score, info, export, replay, live, markers, import-csv."""
