@@ -237,13 +237,13 @@ class MpcNode(Node):  # type: ignore[misc]
             return f'waiting for the model: {self._model.problem}'
         if self._settings.require_recorder and not self._recorder.is_recording:
             return 'waiting for the recorder'
+        rivals = self._graph.warning()
+        if rivals:
+            return f'{rivals}; stop it first'
         if not self._poses.fresh:
             why = self._poses.explanation()
             self._poses.rewind()
             return f'waiting for poses: {why}' if why else 'waiting for poses'
-        rivals = self._graph.warning()
-        if rivals:
-            return f'{rivals}; stop it first'
         object_pose, tip = self._measured()
         start = self._controller.plan.state[0]
         fault = start_fault(self._settings.slider, start, object_pose, tip)
