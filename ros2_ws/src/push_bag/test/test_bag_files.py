@@ -223,3 +223,12 @@ def test_messages_that_are_compressed_one_by_one_are_named(perfect, tmp_path, ca
         error = capsys.readouterr().err
         assert 'compressed one by one' in error
         assert error.count('\n') == 1
+
+
+@pytest.mark.parametrize('length', [0, 30])
+def test_an_empty_last_part_of_a_killed_recording_is_not_in_the_way(split, capsys, length):
+    (split / 'metadata.yaml').unlink()
+    content = (split / 'split_2.mcap').read_bytes()
+    (split / 'split_11.mcap').write_bytes(content[:length])
+    assert info([str(split)]) == 0
+    assert 'unfinished' in capsys.readouterr().out

@@ -190,3 +190,28 @@ def test_a_loss_that_is_not_known_exceeds_any_bound(record, capsys):
     captured = capsys.readouterr()
     assert 'has no lost' in captured.err
     assert 'not known of ' in captured.out.splitlines()[-1]
+
+
+def test_reference_times_that_are_no_number_are_left_out_or_the_reason(rewritten, tmp_path):
+    def sometimes(message):
+        if message.tick % 2:
+            message.reference_time = math.nan
+
+    score = score_run(rewritten(change=sometimes, topic='/controller_state'))
+    assert score['tracking_error_mm']['max'] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_controller_without_reference_times_is_the_reason(rewritten):
+    def never(message):
+        message.reference_time = math.nan
+
+    score = score_run(rewritten(change=never, topic='/controller_state'))
+    assert 'states no reference time' in score['reasons']['tracking_error_mm']
+
+
+def test_a_reference_that_is_no_number_is_refused(rewritten):
+    def spoilt(message):
+        message.x[3] = math.nan
+
+    with pytest.raises(InputError, match='times or poses that cannot be'):
+        score_run(rewritten(change=spoilt, topic='/nominal_trajectory'))

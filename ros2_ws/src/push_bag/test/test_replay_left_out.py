@@ -69,3 +69,13 @@ def test_a_message_that_is_not_of_its_type_is_one_line(bag, capsys):
         writing.add(writing.channel(schema=INT8), data=b'\0\1\0\0' + bytes(9))
     assert main([str(writing.path), *QUICK]) == 2
     assert 'a message on /chatter is not a std_msgs/msg/Int8' in capsys.readouterr().err
+
+
+def test_a_type_that_was_defined_otherwise_is_named(bag, capsys):
+    with bag() as writing:
+        writing.add(writing.channel('/old', topic_type_hash=f'RIHS01_{"0" * 64}'))
+        writing.add(writing.channel('/new'))
+    assert main([str(writing.path), *QUICK]) == 0
+    error = capsys.readouterr().err
+    assert '/old: the installed std_msgs/msg/String differs from the recorded one' in error
+    assert '/new:' not in error

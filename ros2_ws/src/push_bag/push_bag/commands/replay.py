@@ -130,6 +130,11 @@ def _check_left_out(publishers: Publishers, bag: Survey, arguments: argparse.Nam
         f'{name}: its messages of type {kind} (it has those of {bag.topics[name].type_name}, too)'
         for name, kind in sorted(bag.further_types)
     ]
+    for name in publishers.redefined:
+        sys.stderr.write(
+            f'replay: {name}: the installed {bag.topics[name].type_name} differs from the '
+            'recorded one, so subscribers may misread it\n'
+        )
     for each in left_out:
         sys.stderr.write(f'replay: left out {each}\n')
 

@@ -1,5 +1,6 @@
 """Reads the messages of a bag, also of one that was cut short."""
 
+import contextlib
 from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -136,20 +137,19 @@ class BagReader:
                     raise InputError(f'{path} is damaged: a message has an unknown topic')
                 if names is None or topic.name in names:
                     yield Record(topic, raw.data, raw.log_ns, raw.publish_ns, raw.sequence)
+        if not self.finished and not self.all_topics:
+            raise InputError(f'{self.path} ends before its first message')
 
 
 def _messages(path: Path, contents: BagContents) -> Iterator[RawMessage]:
     """The messages of a file; all else goes to its contents."""
     try:
-        with ByteFile(path) as file:
+        with ByteFile(path) as file, contextlib.suppress(CutShortError):
             for record in _records(file, contents):
                 if isinstance(record, RawMessage):
                     yield record
                 else:
                     contents.add(record)
-    except CutShortError:
-        if not contents.topics:
-            raise InputError(f'{path} ends before its first message') from None
     except DamagedError as error:
         raise InputError(
             f'{path} is no bag or is damaged: {error}; `push_bag recover` saves the intact part'

@@ -52,6 +52,23 @@ class Traffic:
             self._numbers_differ |= sequence != self._first_number
             self._gaps.add(sequence)
 
+    @classmethod
+    def of(cls, numbers: NDArray[np.uint64], times: NDArray[np.uint64]) -> 'Traffic':
+        """The traffic of messages (n,) in the order of their log times [ns]."""
+        traffic = cls()
+        traffic.received = times.size
+        if times.size:
+            traffic.first_ns, traffic.last_ns = int(times[0]), int(times[-1])
+            traffic.longest_ns = int(np.max(np.diff(times), initial=0))
+        numbered = numbers[numbers > 0]
+        if numbered.size:
+            traffic._first_number = int(numbered[0])
+            traffic._numbers_differ = bool((numbered != numbered[0]).any())
+        if (numbered[1:] != numbered[:-1] + np.uint64(1)).any():
+            for number in numbered.tolist():
+                traffic._gaps.add(number)
+        return traffic
+
     def limit(self, most_lost: int) -> None:
         """States how many messages can be missing at most."""
         self._most_lost = most_lost
@@ -102,13 +119,11 @@ class TrafficLog:
 
     def traffic(self) -> Traffic:
         """The messages counted in the order of their log times."""
-        numbers = self.numbers
-        order = np.lexsort((numbers, np.frombuffer(self._times, np.uint64)))
+        numbers, times = self.numbers, np.frombuffer(self._times, np.uint64)
+        order = np.lexsort((numbers, times))
         # some programs number from 0; more zeros mean messages without a number
         first = int(numbers.size > 1 and np.count_nonzero(numbers == 0) == 1)
-        traffic = Traffic()
-        for row in order.tolist():
-            traffic.add(self._numbers[row] + first, self._times[row])
+        traffic = Traffic.of(numbers[order] + np.uint64(first), times[order])
         known = np.unique(numbers)
         if known.size == numbers.size:
             # of one publisher no more than the numbers that are not there

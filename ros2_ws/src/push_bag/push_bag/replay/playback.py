@@ -1,5 +1,6 @@
 """Publishes the records of a bag at their recorded times."""
 
+import contextlib
 import heapq
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -15,7 +16,7 @@ from rclpy.qos import DurabilityPolicy
 from rosgraph_msgs.msg import Clock
 from tqdm import tqdm
 
-from push_bag.file import Record, Topic, message_class, qos_profile
+from push_bag.file import Record, Topic, installed_definition, message_class, qos_profile
 
 MATCHING_PERIOD = 0.02  # [s]
 RCLError: type[Exception] = rclpy_implementation.RCLError
@@ -95,6 +96,7 @@ class Publishers:
 
     Attributes:
         left_out: reasons by topic, for topics that cannot be published.
+        redefined: topics whose type is defined otherwise in the bag than in the installed package.
     """
 
     def __init__(self, node: Node, topics: Iterable[Topic], with_clock: bool = False) -> None:
@@ -109,6 +111,7 @@ class Publishers:
         self._publishers: dict[str, Any] = {}
         self._types: dict[str, str] = {}
         self.left_out: dict[str, str] = {}
+        self.redefined: list[str] = []
         for topic in topics:
             self._add(topic)
         needs_clock = with_clock and CLOCK.name not in self._publishers
@@ -157,6 +160,10 @@ class Publishers:
             self._types[topic.name] = topic.type_name
         except InputError as error:
             self.left_out[topic.name] = str(error)
+            return
+        with contextlib.suppress(InputError):
+            if topic.type_hash not in ('', installed_definition(topic.type_name).type_hash):
+                self.redefined.append(topic.name)
 
 
 def _publisher(node: Node, topic: Topic) -> Any:

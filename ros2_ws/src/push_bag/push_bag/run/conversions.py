@@ -101,13 +101,16 @@ def reference(message: Any) -> Reference:
     """The reference of a NominalTrajectory message.
 
     Raises:
-        InputError: its arrays are empty or of different lengths.
+        InputError: its arrays are empty or of different lengths, its poses no numbers, or its
+            times do not increase.
     """
     arrays = [message.time, message.x, message.y, message.theta, message.p_y]
     arrays += [message.v_n, message.v_t]
     if len(message.time) < 2 or len({len(array) for array in arrays}) != 1:
         raise InputError('the recorded nominal trajectory is not a series of samples')
     time, x, y, theta, p_y, v_n, v_t = (np.asarray(array, np.float64) for array in arrays)
+    if not np.isfinite([time, x, y, theta]).all() or (np.diff(time) <= 0.0).any():
+        raise InputError('the recorded nominal trajectory has times or poses that cannot be')
     return Reference(
         track=message.track,
         controller=message.controller,

@@ -91,6 +91,7 @@ def _of_foreign_commands(run: RunSeries) -> dict[str, str]:
 def _of_errors(run: RunSeries) -> str:
     return (
         _pose_reason(run, interface.OBJECT_POSE)
+        or _clock_reason(run)
         or 'no pose lies within the time of the reference: the run ended before it began'
     )
 
@@ -181,6 +182,11 @@ def _interval_reason(run: RunSeries) -> str:
     if tracking_interval(run) is None:
         return 'the controller never followed the reference (mode TRACKING)'
     return ''
+
+
+def _clock_reason(run: RunSeries) -> str:
+    known = np.isfinite(run.state('reference_time')[run.following])
+    return '' if known.any() else 'the controller states no reference time while it follows'
 
 
 def _heading_reason(run: RunSeries) -> str:

@@ -64,14 +64,18 @@ def during_tracking(run: RunSeries, stamps: Nanoseconds) -> NDArray[np.bool_]:
 
 
 def reference_times(run: RunSeries, stamps: Nanoseconds) -> Floats:
-    """Reference time (n,) [s] at each of the stamps (n,) during tracking."""
-    ticks = run.following
+    """Reference time (n,) [s] at each of the stamps (n,) during tracking; NaN where unknown."""
+    ticks = run.following & np.isfinite(run.state('reference_time'))
+    if not ticks.any():
+        return np.full(stamps.size, np.nan)
     known = run.states.stamp[ticks]
     # differences of stamps: a float64 of the stamps themselves would round to 0.2 us
     times: Floats = np.interp(
         (stamps - known[0]).astype(np.float64),
         (known - known[0]).astype(np.float64),
         run.state('reference_time')[ticks],
+        left=np.nan,
+        right=np.nan,
     )
     return times
 
