@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from push_bag.live.plan_markers import horizon_marker, plan_markers, reference_marker
+from push_bag.live.plan_markers import horizon_marker, marker_array, reference_marker
 from push_msgs.msg import Horizon, NominalTrajectory
 
 
@@ -25,8 +25,8 @@ def test_a_plan_without_points_draws_nothing() -> None:
 def test_both_lines_are_in_one_message_under_names_of_their_own() -> None:
     reference = reference_marker(NominalTrajectory(x=[0.0, 1.0], y=[0.0, 0.0]))
     horizon = horizon_marker(Horizon(x=[0.0, 0.1], y=[0.0, 0.0], theta=[0.0, 0.0]))
-    assert [each.ns for each in plan_markers(reference, horizon).markers] == [
+    assert [each.ns for each in marker_array(reference, horizon).markers] == [
         'reference',
         'horizon',
     ]
-    assert plan_markers(None, None).markers == []
+    assert marker_array(None, None).markers == []

@@ -9,7 +9,7 @@ from push_node.spin import run_node
 from rclpy.node import Node
 from visualization_msgs.msg import Marker
 
-from push_bag.live import horizon_marker, plan_markers, reference_marker
+from push_bag.live import horizon_marker, marker_array, reference_marker
 
 
 class Markers(Node):  # type: ignore[misc]
@@ -32,7 +32,7 @@ class Markers(Node):  # type: ignore[misc]
         self._publish()
 
     def _publish(self) -> None:
-        self._publisher.publish(plan_markers(self._reference, self._horizon))
+        self._publisher.publish(marker_array(self._reference, self._horizon))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -31,7 +31,7 @@ def horizon_marker(horizon: Horizon) -> Marker:
     return line
 
 
-def plan_markers(reference: Marker | None, horizon: Marker | None) -> MarkerArray:
+def marker_array(reference: Marker | None, horizon: Marker | None) -> MarkerArray:
     """Both in one message, as far as they are known."""
     return MarkerArray(markers=[each for each in (reference, horizon) if each is not None])
 
