@@ -1,6 +1,9 @@
 """Plans by collocation: sharp corners and prescribed headings."""
 
 import math
+import signal
+import threading
+import time
 from dataclasses import replace
 from itertools import pairwise
 
@@ -99,3 +102,15 @@ def test_a_track_that_nothing_can_follow_is_refused_with_its_place(tmp_path) -> 
 def test_a_heading_that_is_no_number_is_refused() -> None:
     with pytest.raises(InputError, match="start_heading is 'north', must be a number of degrees"):
         planned(replace(SETTINGS, start_heading='north'))
+
+
+@pytest.mark.parametrize('seconds', [0.0, 0.2, 0.4])
+def test_ctrl_c_ends_it_at_once(seconds, capfd) -> None:
+    settings = replace(SETTINGS, planner='optimal', track='eight')
+    timer = threading.Timer(seconds, signal.pthread_kill, (threading.get_ident(), signal.SIGINT))
+    started = time.thread_time()
+    with pytest.raises(KeyboardInterrupt):
+        timer.start()
+        planned(settings)
+    assert time.thread_time() - started < 2.0
+    assert 'CasADi' not in capfd.readouterr().err

@@ -74,6 +74,8 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
     except (PushError, OSError) as error:
         sys.stderr.write(f'{_name(make_node)}: {describe(error)}\n')
         return error.status if isinstance(error, PushError) else 1
+    except KeyboardInterrupt:  # of a long step while the node was made
+        return INTERRUPTED
     finally:
         rclpy.try_shutdown()
         _ignore_signals()

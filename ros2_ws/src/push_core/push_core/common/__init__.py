@@ -6,6 +6,7 @@ from push_core.common.errors import InputError, PushError, RunError
 from push_core.common.interrupts import (
     INTERRUPTED,
     InterruptsHeld,
+    interrupt_is_held,
     take_held_interrupt,
 )
 from push_core.common.settings import (
@@ -36,6 +37,7 @@ __all__ = [
     'describe',
     'finite',
     'flatten',
+    'interrupt_is_held',
     'json_text',
     'markdown_table',
     'nested',

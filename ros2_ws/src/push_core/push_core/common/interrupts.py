@@ -49,6 +49,11 @@ def release_interrupts() -> None:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, _SIGINT)
 
 
+def interrupt_is_held() -> bool:
+    """Whether a Ctrl-C is held."""
+    return signal.SIGINT in signal.sigpending()
+
+
 def take_held_interrupt() -> bool:
     """Whether a Ctrl-C was held; it is taken with that."""
     return signal.sigtimedwait(_SIGINT, 0) is not None

@@ -11,7 +11,7 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from push_core.common import InputError
+from push_core.common import InputError, InterruptsHeld, interrupt_is_held
 from push_core.geometry import Array
 
 from push_mpc.motion import ContactForce
@@ -92,14 +92,31 @@ def _solved(
         + _ASIDE * ca.sumsqr(inputs[1, :])
     )
     problem.solver('ipopt', _IPOPT)
-    try:
-        problem.solve()
-    except RuntimeError:
-        solved = False
-    else:
-        solved = True
+    solved = _solve(problem)
     values = [np.asarray(problem.debug.value(each)).T for each in (nodes, inputs)]
     return (values[0] * unit, values[1] * speed), solved
+
+
+def _solve(problem: ca.Opti) -> bool:
+    """Whether IPOPT finds a solution; a Ctrl-C ends it after the current iteration.
+
+    Raises:
+        KeyboardInterrupt: Ctrl-C was pressed.
+    """
+    # casadi takes a Ctrl-C within a function for a failed evaluation, and goes on
+    with InterruptsHeld():
+        problem.callback(lambda _iteration: _end_if_interrupted())
+        try:
+            problem.solve()
+        except RuntimeError:
+            _end_if_interrupted()
+            return False
+        return True
+
+
+def _end_if_interrupted() -> None:
+    if interrupt_is_held():
+        raise KeyboardInterrupt
 
 
 def _rates(task: PlanningTask, state: ca.SX, inputs: ca.SX) -> ca.SX:
