@@ -13,6 +13,12 @@ from cell_command import CELL, PATIENT, Ended, is_pushing, wait_until
 DOMAIN = str(40 + os.getpid() % 40)
 
 
+@pytest.fixture(scope='session', autouse=True)
+def _interrupts_heard() -> None:
+    """Also where the tests run in the background, which ignores Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 @pytest.fixture(scope='session')
 def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """Variables for all commands; one cache, so that the default model is learned once."""

@@ -2,6 +2,7 @@
 
 import itertools
 import os
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -12,6 +13,12 @@ settings.register_profile('untimed', deadline=None, suppress_health_check=[Healt
 settings.load_profile('untimed')
 
 _DOMAINS = (1 + number % 100 for number in itertools.count(13 * os.getpid()))
+
+
+@pytest.fixture(scope='session', autouse=True)
+def _interrupts_heard() -> None:
+    """Also where the tests run in the background, which ignores Ctrl-C."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope='module', autouse=True)

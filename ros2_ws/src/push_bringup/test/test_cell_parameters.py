@@ -5,7 +5,12 @@ from pathlib import Path
 import pytest
 import yaml
 from push_bringup.commands.parameters import page
-from push_bringup.setup.cell_parameters import installed_config, recorded_parameters, resolved
+from push_bringup.setup.cell_parameters import (
+    installed_config,
+    recorded_in,
+    recorded_parameters,
+    resolved,
+)
 from push_bringup.setup.request import Request
 from push_core.common.errors import InputError
 
@@ -20,6 +25,7 @@ def request(**changes):
         'perturb': 'normal',
         'laps': 2,
         'seed': 3,
+        'preset': 'tuned',
         'mode': 'inprocess',
         'output': Path('runs'),
         'namespace': '',
@@ -29,8 +35,7 @@ def request(**changes):
 
 
 def resolve(**changes):
-    defaults = installed_config('cell.yaml')
-    return resolved(request(**changes), defaults, Path('runs/run'), Path('inputs'))
+    return resolved(request(**changes), installed_config('cell.yaml'))
 
 
 def test_the_request_reaches_every_node() -> None:
@@ -39,7 +44,54 @@ def test_the_request_reaches_every_node() -> None:
     assert (parameters.sim.seed, parameters.sim.perturbation.kind) == (3, 'normal')
     assert (parameters.mpc.track, parameters.mpc.speed, parameters.mpc.laps) == ('square', 0.05, 2)
     assert parameters.gp.model == 'model.npz'
-    assert parameters.recorder.folder == 'runs/run'
+
+
+def test_a_recorded_run_names_its_folder_and_keeps_its_files(tmp_path) -> None:
+    track = tmp_path / 'oval.csv'
+    track.write_text('0,0\n')
+    own = {'track': str(track), 'recorder.attachments': 'notes.txt'}
+    recorder = recorded_in(resolve(overrides=own), Path('runs/run'), Path('inputs')).recorder
+    assert (recorder.folder, recorder.facts_file) == ('runs/run', 'inputs/facts.json')
+    assert recorder.attachments.splitlines() == [
+        'inputs/params.yaml',
+        'inputs/nominal_trajectory.csv',
+        str(track),
+        'notes.txt',
+    ]
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'node', 'attribute'),
+    [
+        ('profile', 'harsh', 'sim', 'profile'),
+        ('seed', 9, 'sim', 'seed'),
+        ('track', 'line', 'mpc', 'track'),
+        ('speed', 0.03, 'mpc', 'speed'),
+        ('controller', 'analytical', 'mpc', 'controller'),
+        ('preset', 'paper', 'mpc', 'preset'),
+        ('laps', 4, 'mpc', 'laps'),
+    ],
+)
+def test_a_parameter_file_counts_where_no_option_is_given(
+    name, value, node, attribute, tmp_path
+) -> None:
+    path = tmp_path / 'mine.yaml'
+    path.write_text(f'/**:\n  ros__parameters: {{{name}: {value}}}\n')
+    by_file = resolve(params=path, **{name: None})
+    assert getattr(getattr(by_file, node), attribute) == value
+    by_option = resolve(params=path)
+    assert getattr(getattr(by_option, node), attribute) == getattr(request(), name)
+
+
+def test_the_default_model_is_that_of_the_controller_however_it_was_chosen() -> None:
+    assert resolve(model=None, overrides={'controller': 'analytical'}).gp.model == 'analytical'
+    assert resolve(model=None, overrides={'gp_server.model': 'my.npz'}).gp.model == 'my.npz'
+
+
+def test_what_was_changed_is_told_without_what_has_facts_of_its_own() -> None:
+    assert resolve().changed() == ''
+    changed = {'profile': 'irb120', 'seed': 5, 'mpc_node.actuator.lag': 0.02}
+    assert resolve(overrides=changed).changed() == 'mpc_node.actuator.lag=0.02'
 
 
 def test_a_profile_brings_the_lag_of_its_robot_to_plant_and_predictor() -> None:
@@ -111,7 +163,7 @@ def test_an_unknown_parameter_in_the_file_is_refused(tmp_path) -> None:
     defaults = tmp_path / 'cell.yaml'
     defaults.write_text('/**/mpc_node:\n  ros__parameters:\n    speeed: 1.0\n')
     with pytest.raises(InputError, match='speeed'):
-        resolved(request(), defaults, Path('runs/run'), Path('inputs'))
+        resolved(request(), defaults)
 
 
 def test_the_page_of_parameters_in_the_documentation_is_up_to_date() -> None:

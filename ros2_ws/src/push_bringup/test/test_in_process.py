@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 from mcap.reader import make_reader
+from push_bag.run.run_reader import read_run
 from push_bringup.commands.cell import main
-from push_bringup.comparison.qp_recording import lap_request
 from push_bringup.graph.cell_lock import CellLock
 from push_bringup.setup.run_folder import new_run_folder
 from push_core.common.errors import RunError
+from push_mpc.settings import mpc_settings
 
 LINE = ('--mode', 'inprocess', '--track', 'line', '--speed', '0.1')
 
@@ -34,14 +35,70 @@ def test_a_run_leaves_a_folder_with_bag_score_and_report(folder) -> None:
 
 
 def test_two_runs_within_a_second_get_two_folders(tmp_path) -> None:
-    request = replace(lap_request('gp', 'analytical', 0), output=tmp_path)
     now = datetime(2026, 11, 23, 12, 30, 59).astimezone()
     folders = []
     for _ in range(3):
-        folders.append(new_run_folder(request, now))
+        folders.append(
+            new_run_folder(tmp_path, replace(mpc_settings('ideal'), controller='gp'), now)
+        )
         folders[-1].mkdir()
     name = '20261123-123059_eight_gp_80mms'
     assert [folder.name for folder in folders] == [name, f'{name}_2', f'{name}_3']
+
+
+@pytest.mark.parametrize(
+    ('track', 'speed', 'ending'),
+    [
+        ('square', 0.0125, 'square_gp_12.5mms'),
+        ('Ma piste n° 1/oval (1).csv', 0.05, 'oval_1_gp_50mms'),
+        ('Größe.csv', 0.05, 'Groe_gp_50mms'),
+        ('線.csv', 0.05, 'track_gp_50mms'),
+        ('a' * 300 + '.csv', 0.05, 'a' * 60 + '_gp_50mms'),
+        ('$(id);&|<>*?.csv', 0.05, 'id_gp_50mms'),
+    ],
+)
+def test_a_folder_name_is_of_plain_characters(track, speed, ending, tmp_path) -> None:
+    mpc = replace(mpc_settings('ideal'), controller='gp', track=track, speed=speed)
+    now = datetime(2026, 11, 23, 12, 30, 59).astimezone()
+    assert new_run_folder(tmp_path, mpc, now).name == f'20261123-123059_{ending}'
+
+
+@pytest.mark.parametrize('way', ['options', 'overrides', 'file'])
+def test_label_facts_score_and_folder_tell_what_was_run_however_it_was_set(
+    way, tmp_path, capsys
+) -> None:
+    chosen = {'track': 'line', 'speed': 0.1, 'controller': 'analytical', 'profile': 'ideal'}
+    chosen |= {'seed': 7}
+    arguments = ['--mode', 'inprocess', '-o', str(tmp_path / 'runs')]
+    if way == 'file':
+        path = tmp_path / 'mine.yaml'
+        path.write_text(json.dumps({'/**': {'ros__parameters': chosen}}))
+        arguments += ['--params', str(path)]
+    for name, value in chosen.items():
+        if way == 'options':
+            arguments += [f'--{name}', str(value)]
+        elif way == 'overrides':
+            arguments += ['-p', f'{name}:={value}']
+    assert main(arguments) == 0
+    out = capsys.readouterr().out
+    assert 'line, 100 mm/s, 1 lap, analytical, ideal, inprocess, seed 7\n' in out
+    folder = Path(out.splitlines()[-1])
+    assert folder.name.endswith('_line_analytical_100mms')
+    score = json.loads((folder / 'score.json').read_text())
+    assert (score['profile'], score['seed'], score['changed']) == ('ideal', 7, None)
+    facts = read_run(folder).facts
+    assert {name: facts[name] for name in chosen} == {
+        name: str(value) for name, value in chosen.items()
+    }
+
+
+def test_changed_parameters_are_part_of_the_label(tmp_path, capsys) -> None:
+    changed = ('-p', 'sim_node.actuator.lag:=0.02')
+    assert main([*LINE, '--controller', 'analytical', *changed, '-o', str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert 'seed 0, sim_node.actuator.lag=0.02\n' in out
+    report = (Path(out.splitlines()[-1]) / 'report.html').read_text()
+    assert 'sim_node.actuator.lag=0.02' in report
 
 
 def test_a_run_that_does_not_reach_its_end_says_why_with_status_1(tmp_path, capsys) -> None:

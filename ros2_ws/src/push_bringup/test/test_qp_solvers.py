@@ -17,13 +17,12 @@ from push_sim.settings.plant_settings import PerturbationKind
 
 
 @pytest.fixture(scope='module', params=['gp', 'analytical'])
-def recorded(request, tmp_path_factory):
+def recorded(request):
     """The QPs of 60 ticks with a kick."""
-    folder = tmp_path_factory.mktemp('run')
     # the plan costs seconds, and any plan gives such QPs
     flat = {'mpc_node.consistent_plan': False}
     request_of_lap = replace(lap_request(request.param, 'analytical', 0), overrides=flat)
-    parameters = resolved(request_of_lap, installed_config('cell.yaml'), folder, folder)
+    parameters = resolved(request_of_lap, installed_config('cell.yaml'))
     cell = InProcessCell(parameters, AnalyticalModel(), planned(parameters.mpc))
     ticks = []
 

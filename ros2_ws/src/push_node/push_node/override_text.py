@@ -3,6 +3,8 @@
 import yaml
 from push_core.common import InputError
 
+from push_node.parameter_yaml import load_yaml
+
 
 def parsed_override(text: str) -> tuple[str, object]:
     """Name and value of an override.
@@ -17,6 +19,7 @@ def parsed_override(text: str) -> tuple[str, object]:
     if not (name and separator and value):
         raise InputError(f'-p {text}: write it as NAME:=VALUE')
     try:
-        return name, yaml.safe_load(value)
+        # ROS names the node of a parameter with a colon
+        return name.lstrip('/').replace(':', '.', 1), load_yaml(value)
     except yaml.YAMLError:
         raise InputError(f'-p {text}: the value is not a number, word or true/false') from None

@@ -8,7 +8,15 @@ from push_core.common import InputError
 from push_report.figure_style import RUN_COLOURS
 
 from push_bag.run import Reference, RunSeries
-from push_bag.score import Contact, LoopTiming, Tracking, contact, timing, tracking_errors
+from push_bag.score import (
+    Contact,
+    LoopTiming,
+    Tracking,
+    changes_in_words,
+    contact,
+    timing,
+    tracking_errors,
+)
 
 Scored = tuple[RunSeries, Mapping[str, Any]]
 
@@ -49,7 +57,7 @@ def reported_runs(scored: Sequence[Scored]) -> list[ReportedRun]:
 
 def title(score: Mapping[str, Any]) -> str:
     """Track, speed and controller of a run."""
-    return f'{score["track"]} at {score["speed_m_s"] * 1e3:.0f} mm/s, {score["controller"]}'
+    return f'{score["track"]} at {score["speed_m_s"] * 1e3:.4g} mm/s, {score["controller"]}'
 
 
 def _reported(number: int, run: RunSeries, score: Mapping[str, Any]) -> ReportedRun:
@@ -68,8 +76,9 @@ def _reported(number: int, run: RunSeries, score: Mapping[str, Any]) -> Reported
 
 
 def _setting(run: RunSeries) -> str:
-    """Perturbation, profile and seed of a run, in parentheses."""
+    """Perturbation, profile, seed and changed parameters of a run, in parentheses."""
     perturbed = run.facts.get('perturb', 'none')
     words = [] if perturbed == 'none' else [perturbed]
     words += [f'{name} {run.facts[name]}' for name in ('profile', 'seed') if name in run.facts]
+    words += changes_in_words(run.facts.get('changed'))
     return f' ({", ".join(words)})' if words else ''

@@ -1,6 +1,7 @@
 """The score of a run: tracking, contact, timing, messages."""
 
 from push_bag.score.bounds import bound, check_bounds
+from push_bag.score.changes import changes_in_words
 from push_bag.score.contact import Contact, contact, loss_intervals
 from push_bag.score.runs_table import Scores, comparison_table, runs_object, runs_table
 from push_bag.score.score import bag_score, score_run, score_series
@@ -18,6 +19,7 @@ __all__ = [
     'Tracking',
     'bag_score',
     'bound',
+    'changes_in_words',
     'check_bounds',
     'comparison_table',
     'contact',

@@ -152,6 +152,7 @@ def _setting(run: RunSeries, reference: Reference) -> dict[str, Any]:
         'profile': run.facts.get('profile'),
         'mode': run.facts.get('mode'),
         'seed': _seed(run.facts.get('seed')),
+        'changed': run.facts.get('changed') or None,
         'model': _model(run),
     }
 

@@ -5,6 +5,8 @@ from typing import Any
 
 from push_core.common import plain_table
 
+from push_bag.score.changes import changes_in_words
+
 Row = tuple[str, str]
 
 
@@ -99,10 +101,11 @@ def _verdict(score: Mapping[str, Any]) -> str:
 
 def _run(score: Mapping[str, Any]) -> str:
     laps = f'{score["laps"]} lap' + ('s' if score['laps'] != 1 else '')
-    words = [score['track'], f'{score["speed_m_s"] * 1e3:.0f} mm/s', laps, score['controller']]
+    words = [score['track'], f'{score["speed_m_s"] * 1e3:.4g} mm/s', laps, score['controller']]
     words += [score['profile'], score['mode']]
     seed = [] if score['seed'] is None else [f'seed {score["seed"]}']
-    return ', '.join([word for word in words if word] + seed)
+    changes = changes_in_words(score.get('changed'))
+    return ', '.join([word for word in words if word] + seed + changes)
 
 
 def _model(model: Mapping[str, Any]) -> str:

@@ -16,11 +16,14 @@ from push_mpc.plan import Plan, planned
 
 from push_bringup.commands.cell_options import parser, requested
 from push_bringup.setup import (
+    PARAMETERS_FILE,
     CellParameters,
     Request,
+    check_effective,
     installed_config,
     keep_logs,
     new_run_folder,
+    recorded_in,
     resolved,
     write_inputs,
 )
@@ -41,10 +44,12 @@ def work(arguments: argparse.Namespace) -> int:
         RunError: the run could not be recorded or scored.
     """
     request = requested(arguments)
-    folder = new_run_folder(request, datetime.now().astimezone())
+    parameters = resolved(request, installed_config('cell.yaml'))
+    check_effective(request, parameters)
+    folder = new_run_folder(request.output, parameters.mpc, datetime.now().astimezone())
     with tempfile.TemporaryDirectory(prefix='push_cell_') as scratch:
         inputs = Path(scratch)
-        parameters = resolved(request, installed_config('cell.yaml'), folder, inputs)
+        parameters = recorded_in(parameters, folder, inputs)
         plan = planned(parameters.mpc)
         write_inputs(request, parameters, plan, inputs)
         try:
@@ -60,16 +65,16 @@ def work(arguments: argparse.Namespace) -> int:
 
 def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path) -> str:
     """Runs the cell; returns the reason of an early end, else an empty string."""
-    if request.mode == 'inprocess':
+    if request.is_in_process:
         from push_gp.models.model_file import model_named
 
         from push_bringup.in_process.run import recorded_in_process
 
-        model = model_named(request.model, parameters.gp.slider)
+        model = model_named(parameters.gp.model, parameters.gp.slider, parameters.gp.distance)
         return recorded_in_process(parameters, model, plan)
     from push_bringup.graph.node_graph import run_graph
 
-    return run_graph(inputs / 'params.yaml', request, inputs)
+    return run_graph(inputs / PARAMETERS_FILE, request.namespace, inputs)
 
 
 def _finish(folder: Path, reason: str) -> int:

@@ -6,12 +6,12 @@ from pathlib import Path
 
 from push_core.common import InputError, Parser
 from push_core.tracks import TRACKS
-from push_gp.models import ANALYTICAL, read_sealed
+from push_gp.models import read_sealed
 from push_mpc.settings import CONTROLLERS, PRESETS
 from push_node.override_text import parsed_override
 from push_sim.settings import PROFILES
 
-from push_bringup.setup import Request, model_for
+from push_bringup.setup import Request
 
 EPILOG = """examples:
   ros2 run push_bringup cell                                   the 8-track at 80 mm/s
@@ -30,16 +30,14 @@ def parser() -> Parser:
     tracks = ', '.join(TRACKS)
     parser.add_argument(
         '--track',
-        default='eight',
-        help=f'{tracks} or a .csv of x, y [m] (default %(default)s)',
+        help=f'{tracks} or a .csv of x, y [m] (default eight)',
     )
-    parser.add_argument('--speed', type=float, default=0.08, help='[m/s] (default %(default)s)')
+    parser.add_argument('--speed', type=float, help='[m/s] (default 0.08)')
     controllers = '; '.join(f'{name}: {kind.text}' for name, kind in CONTROLLERS.items())
     parser.add_argument(
         '--controller',
         choices=tuple(CONTROLLERS),
-        default='gp',
-        help=f'{controllers} (default %(default)s)',
+        help=f'{controllers} (default gp)',
     )
     parser.add_argument(
         '--model',
@@ -50,34 +48,26 @@ def parser() -> Parser:
     parser.add_argument(
         '--profile',
         choices=tuple(PROFILES),
-        default='irb120',
-        help='lag of the robot and errors of the cameras (default %(default)s)',
+        help='lag of the robot and errors of the cameras (default irb120)',
     )
     parser.add_argument(
         '--preset',
         choices=PRESETS,
-        default='tuned',
-        help='of the controller; paper: weights and horizon of the paper (default %(default)s)',
+        help='of the controller; paper: weights and horizon of the paper (default tuned)',
     )
     parser.add_argument(
         '--perturb',
         choices=('none', 'normal', 'tangential'),
-        default='none',
         help='at the start; normal: moves the object 30 mm off the pusher, '
-        'tangential: moves the pusher 20 mm along the face (default %(default)s)',
+        'tangential: moves the pusher 20 mm along the face (default none)',
     )
-    parser.add_argument(
-        '--laps', type=int, default=1, help='rounds of a closed track (default %(default)s)'
-    )
-    parser.add_argument(
-        '--seed', type=int, default=0, help='of all random numbers (default %(default)s)'
-    )
+    parser.add_argument('--laps', type=int, help='rounds of a closed track (default 1)')
+    parser.add_argument('--seed', type=int, help='of all random numbers (default 0)')
     parser.add_argument(
         '--mode',
         choices=('realtime', 'lockstep', 'inprocess'),
-        default='realtime',
         help='realtime: nodes by the wall clock; lockstep: nodes that wait for each other, '
-        'repeatable; inprocess: one process without ROS, fastest (default %(default)s)',
+        'repeatable; inprocess: one process without ROS, fastest (default realtime)',
     )
     parser.add_argument(
         '-p',
@@ -111,16 +101,14 @@ def requested(arguments: argparse.Namespace) -> Request:
     Raises:
         InputError: an argument is out of range, or two of them contradict each other.
     """
-    if arguments.model and not CONTROLLERS[arguments.controller].trained_model:
-        raise InputError(f'--model is not for --controller {arguments.controller}')
-    if not arguments.speed > 0.0:
+    if arguments.speed is not None and not arguments.speed > 0.0:
         raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
     overrides = dict(parsed_override(text) for text in arguments.param)
     return Request(
         track=arguments.track,
         speed=arguments.speed,
         controller=arguments.controller,
-        model=_model(arguments),
+        model=_model(arguments.model),
         profile=arguments.profile,
         perturb=arguments.perturb,
         laps=arguments.laps,
@@ -148,10 +136,9 @@ def _namespace(text: str) -> str:
     return name
 
 
-def _model(arguments: argparse.Namespace) -> str:
-    given = arguments.model and str(arguments.model)
-    model = model_for(arguments.controller, given)
-    if model == ANALYTICAL:
-        return model
-    read_sealed(Path(model))
-    return str(Path(model).resolve())
+def _model(path: Path | None) -> str | None:
+    """The full path of a model file."""
+    if path is None:
+        return None
+    read_sealed(path)
+    return str(path.resolve())

@@ -16,9 +16,13 @@ from push_node.interface import CLOCK
 from push_bringup.commands.cell_options import requested
 from push_bringup.commands.launch_arguments import number
 from push_bringup.setup import (
+    PARAMETERS_FILE,
+    CellParameters,
     Request,
+    check_effective,
     installed_config,
     new_run_folder,
+    recorded_in,
     resolved,
     write_inputs,
 )
@@ -79,10 +83,12 @@ def launched_cell(values: Mapping[str, str]) -> LaunchedCell:
     request = _request(values, recorded)
     inputs = Path(tempfile.mkdtemp(prefix='push_cell_'))
     atexit.register(shutil.rmtree, inputs, ignore_errors=True)
-    folder = _folder(values['folder'], request)
-    parameters = resolved(request, installed_config('cell.yaml'), folder, inputs)
+    parameters = resolved(request, installed_config('cell.yaml'))
+    check_effective(request, parameters)
+    folder = _folder(values['folder'], request.output, parameters)
+    parameters = recorded_in(parameters, folder, inputs)
     write_inputs(request, parameters, planned(parameters.mpc), inputs)
-    nodes = _nodes(values, recorded, inputs / 'params.yaml')
+    nodes = _nodes(values, recorded, inputs / PARAMETERS_FILE)
     return LaunchedCell(nodes, request.namespace, folder if recorded else None)
 
 
@@ -106,14 +112,14 @@ def _request(values: Mapping[str, str], recorded: bool) -> Request:
     return requested(options)
 
 
-def _folder(given: str, request: Request) -> Path:
+def _folder(given: str, output: Path, parameters: CellParameters) -> Path:
     """The named folder, or one that no other launch takes, even in the same second."""
     if given:
         if Path(given).exists():
             raise InputError(f'folder {given} exists; name a new one, or none')
         return Path(given)
     now = datetime.now().astimezone()
-    folder = new_run_folder(request, now)
+    folder = new_run_folder(output, parameters.mpc, now)
     return folder.with_name(f'{folder.name}_{now:%f}')
 
 

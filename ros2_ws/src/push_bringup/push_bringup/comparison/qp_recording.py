@@ -30,7 +30,7 @@ def recorded_problems(controller: str, model: str, seed: int) -> list[tuple[Prob
         seed: of the plant's noise.
     """
     request = lap_request(controller, model, seed)
-    parameters = resolved(request, installed_config('cell.yaml'), Path('unused'), Path('unused'))
+    parameters = resolved(request, installed_config('cell.yaml'))
     model_of_object = model_named(model, parameters.gp.slider)
     cell = InProcessCell(parameters, model_of_object, planned(parameters.mpc))
     problems: list[tuple[Problem, ...]] = []

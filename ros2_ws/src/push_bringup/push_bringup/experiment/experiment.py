@@ -87,4 +87,4 @@ class LapJob:
             namespace='',
             overrides=dict(self.overrides),
         )
-        return resolved(request, installed_config('cell.yaml'), Path('unused'), Path('unused'))
+        return resolved(request, installed_config('cell.yaml'))

@@ -6,18 +6,18 @@ from pathlib import Path
 
 from push_bringup.graph.cell_lock import CellLock
 from push_bringup.graph.processes import Processes
-from push_bringup.setup import Request, installed_config
+from push_bringup.setup import installed_config
 
 FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 REST_TIME = 0.3  # [s] for watchdog, braking and the last messages
 
 
-def run_graph(params: Path, request: Request, logs: Path) -> str:
+def run_graph(params: Path, namespace: str, logs: Path) -> str:
     """Starts the nodes, pushes once along the track, stops them cleanly.
 
     Args:
         params: resolved parameter file.
-        request: gives the namespace.
+        namespace: of the nodes, '' for none.
         logs: folder for the output of the nodes.
 
     Returns:
@@ -27,15 +27,15 @@ def run_graph(params: Path, request: Request, logs: Path) -> str:
         KeyboardInterrupt: a stop was requested.
     """
     with (
-        CellLock(request.namespace),
-        Processes(params, request.namespace, logs) as processes,
+        CellLock(namespace),
+        Processes(params, namespace, logs) as processes,
     ):
         os.environ.setdefault(FAST_DDS_PROFILES, str(installed_config('fastdds.xml')))
         processes.start()
         # rclpy is slow to import: the nodes start meanwhile
         from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
 
-        conductor = Conductor(request.namespace, processes)
+        conductor = Conductor(namespace, processes)
         try:
             return conductor.run()
         finally:

@@ -1,13 +1,16 @@
 """What a run needs before it starts: request, parameters, default model, run folder."""
 
 from push_bringup.setup.cell_parameters import (
+    PARAMETERS_FILE,
     CellParameters,
     installed_config,
     node_defaults,
+    recorded_in,
     recorded_parameters,
     resolved,
 )
 from push_bringup.setup.default_model import default_model, model_for
+from push_bringup.setup.effect import check_effective
 from push_bringup.setup.provenance import (
     MODEL_SOURCES,
     code_key,
@@ -21,8 +24,10 @@ from push_bringup.setup.run_folder import keep_logs, new_run_folder, write_input
 
 __all__ = [
     'MODEL_SOURCES',
+    'PARAMETERS_FILE',
     'CellParameters',
     'Request',
+    'check_effective',
     'code_key',
     'default_model',
     'git_revision',
@@ -32,6 +37,7 @@ __all__ = [
     'new_run_folder',
     'node_defaults',
     'processor',
+    'recorded_in',
     'recorded_parameters',
     'resolved',
     'source_revision',

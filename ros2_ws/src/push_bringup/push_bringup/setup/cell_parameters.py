@@ -1,7 +1,7 @@
 """The parameters of all nodes for one run: the file, the command line, the overrides; checked."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,20 @@ from push_gp.server import ServerSettings
 from push_mpc.settings import MpcSettings, mpc_settings
 from push_sim.node import NodeSettings, node_settings
 
+from push_bringup.setup.default_model import model_for
+from push_bringup.setup.parameter_file import Values, parsed_parameters, read_parameter_file
 from push_bringup.setup.request import Request
 
+PARAMETERS_FILE = 'params.yaml'
+FACTS_FILE = 'facts.json'
+PLAN_FILE = 'nominal_trajectory.csv'
+DEFAULT_CONTROLLER = 'gp'
+_FACTS = (
+    *('track', 'speed', 'controller', 'preset', 'profile', 'perturbation.kind', 'laps', 'seed'),
+    *('mode', 'model', 'require_recorder'),
+)
+"""Parameters that have facts of their own, or that do not change a run."""
+_MODEL = {'model', 'gp_server.model'}
 NODES = ('sim_node', 'gp_server', 'mpc_node', 'recorder')
 
 
@@ -35,6 +47,18 @@ class CellParameters:
             for node, own in zip(NODES, settings, strict=True)
         }
 
+    def changed(self) -> str:
+        """What differs from the defaults of profiles and preset and has no fact of its own."""
+        defaults = node_defaults(self.sim.profile, self.mpc.profile, self.mpc.preset)
+        return ', '.join(
+            f'{node}.{name}={value}'
+            for node, values in self.by_node().items()
+            for name, value in values.items()
+            if value != flatten(defaults[node])[name][0]
+            and name not in _FACTS
+            and node != 'recorder'
+        )
+
     def as_yaml(self) -> str:
         """A ROS parameter file that holds every value."""
         blocks = {
@@ -48,24 +72,86 @@ def installed_config(name: str) -> Path:
     return Path(get_package_share_directory('push_bringup')) / 'config' / name
 
 
-def resolved(request: Request, defaults: Path, folder: Path, inputs: Path) -> CellParameters:
-    """The parameters of one run.
+def resolved(request: Request, defaults: Path) -> CellParameters:
+    """The parameters of one run; without a folder for the recording, see `recorded_in`.
+
+    Of what sets a parameter the latter counts: the defaults, the parameter file of the request,
+    its options, its overrides.
 
     Args:
         request: what the user asked for.
         defaults: parameter file of the cell.
-        folder: of the run, for the recorder.
-        inputs: folder with the files that the recorder keeps.
 
     Raises:
-        InputError: an unknown parameter, or a value out of range.
+        InputError: a parameter is unknown, out of range or would have no effect.
     """
-    values = _from_file(defaults)
-    for node, own in _from_file(request.params).items() if request.params else ():
-        values[node].update(own)
-    for node, changes in _from_request(request, folder, inputs).items():
+    values = read_parameter_file(defaults, _names())
+    values['mpc_node']['controller'] = DEFAULT_CONTROLLER
+    given = _given(request)
+    for node, changes in (*given.items(), *_options(request).items()):
         values[node].update(changes)
-    return _checked(values, request.overrides)
+    parameters = _checked(values, request.overrides)
+    names_model = request.model or 'model' in given['gp_server'] or _MODEL & {*request.overrides}
+    return parameters if names_model else _with_default_model(parameters)
+
+
+def _given(request: Request) -> Values:
+    """The values of the request's parameter file, without the places of another run's files."""
+    if not request.params:
+        return {node: {} for node in NODES}
+    values = read_parameter_file(request.params, _names(), request.namespace)
+    for name in ('folder', 'facts_file', 'attachments'):
+        values['recorder'].pop(name, None)
+    return values
+
+
+def _options(request: Request) -> Values:
+    """The values of the request's options that were given."""
+    mode = 'lockstep' if request.mode == 'inprocess' else request.mode
+    common = {'profile': request.profile, 'mode': mode}
+    options: Values = {
+        'sim_node': {**common, 'seed': request.seed, 'perturbation.kind': request.perturb},
+        'gp_server': {'model': request.model},
+        'mpc_node': {
+            **common,
+            'track': request.track,
+            'speed': request.speed,
+            'laps': request.laps,
+            'controller': request.controller,
+            'preset': request.preset,
+        },
+    }
+    return {
+        node: {name: value for name, value in own.items() if value is not None}
+        for node, own in options.items()
+    }
+
+
+def _with_default_model(parameters: CellParameters) -> CellParameters:
+    model = model_for(parameters.mpc.controller)
+    return replace(parameters, gp=replace(parameters.gp, model=model))
+
+
+def recorded_in(parameters: CellParameters, folder: Path, inputs: Path) -> CellParameters:
+    """The parameters of a run that is recorded.
+
+    Args:
+        parameters: of the run.
+        folder: of the run.
+        inputs: folder with the files that the recorder keeps, see `write_inputs`.
+    """
+    attachments = [str(inputs / name) for name in (PARAMETERS_FILE, PLAN_FILE)]
+    # files that the parameters name
+    named = (Path(parameters.gp.model), Path(parameters.mpc.track))
+    attachments += [str(path) for path in named if path.suffix and path.is_file()]
+    attachments += parameters.recorder.attachments.splitlines()
+    recorder = replace(
+        parameters.recorder,
+        folder=str(folder),
+        facts_file=str(inputs / FACTS_FILE),
+        attachments='\n'.join(attachments),
+    )
+    return replace(parameters, recorder=recorder)
 
 
 def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParameters:
@@ -78,7 +164,7 @@ def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParam
     Raises:
         InputError: the text is no parameter file, a parameter is unknown, or a value out of range.
     """
-    values = _from_text(text, 'the recorded parameters')
+    values = parsed_parameters(text, 'the recorded parameters', _names())
     for node, defaults in _defaults(values).items():
         # older recordings name them; they had no effect then either
         for name in unused_names(defaults):
@@ -86,60 +172,8 @@ def recorded_parameters(text: str, overrides: Mapping[str, object]) -> CellParam
     return _checked(values, overrides)
 
 
-def _from_file(path: Path) -> dict[str, dict[str, Any]]:
-    try:
-        return _from_text(path.read_text(encoding='utf-8'), str(path))
-    except OSError as error:
-        raise InputError(f'cannot read {path}: {error.strerror}') from error
-    except UnicodeDecodeError as error:
-        raise InputError(f'{path}: is not a text file') from error
-
-
-def _from_text(text: str, source: str) -> dict[str, dict[str, Any]]:
-    try:
-        blocks = yaml.safe_load(text)
-        unknown = sorted(set(blocks) - {f'/**/{node}' for node in NODES})
-        values = {node: _block(blocks, node) for node in NODES}
-    except (yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
-        raise InputError(
-            f'{source}: is not a parameter file with blocks such as '
-            f'/**/{NODES[0]} with ros__parameters'
-        ) from error
-    if unknown:
-        known = ', '.join(f'/**/{node}' for node in NODES)
-        raise InputError(f'{source}: unknown block {unknown[0]!r}; known: {known}')
-    return values
-
-
-def _block(blocks: Mapping[str, Any], node: str) -> dict[str, Any]:
-    block = blocks.get(f'/**/{node}', {'ros__parameters': {}})
-    return dict(block['ros__parameters'])
-
-
-def _from_request(request: Request, folder: Path, inputs: Path) -> dict[str, dict[str, Any]]:
-    mode = 'lockstep' if request.mode == 'inprocess' else request.mode
-    common = {'profile': request.profile, 'mode': mode}
-    attachments = [inputs / 'params.yaml', inputs / 'nominal_trajectory.csv']
-    # files that the parameters name
-    named = (Path(request.model), Path(request.track))
-    attachments += [path for path in named if path.suffix and path.is_file()]
-    return {
-        'sim_node': {**common, 'seed': request.seed, 'perturbation.kind': request.perturb},
-        'gp_server': {'model': request.model},
-        'mpc_node': {
-            **common,
-            'track': request.track,
-            'speed': request.speed,
-            'laps': request.laps,
-            'controller': request.controller,
-            'preset': request.preset,
-        },
-        'recorder': {
-            'folder': str(folder),
-            'facts_file': str(inputs / 'facts.json'),
-            'attachments': '\n'.join(str(path) for path in attachments),
-        },
-    }
+def _names() -> dict[str, Collection[str]]:
+    return {node: flatten(defaults).keys() for node, defaults in node_defaults('irb120').items()}
 
 
 def _checked(values: dict[str, dict[str, Any]], overrides: Mapping[str, object]) -> CellParameters:

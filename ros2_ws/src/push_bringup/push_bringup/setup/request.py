@@ -1,12 +1,13 @@
 """What `cell` is asked to do."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 
 @dataclass(frozen=True)
 class Request:
-    """One run of the cell.
+    """One run of the cell; what is None is left to parameter file and defaults.
 
     Attributes:
         track: eight, square, line or the path of a CSV file.
@@ -18,24 +19,29 @@ class Request:
         laps: rounds of a closed track.
         seed: of everything random.
         mode: realtime, lockstep or inprocess.
+        preset: tuned or paper, for the controller.
         output: folder in which the run's own folder is made.
         namespace: of the node graph, '' for none.
-        preset: tuned or paper, for the controller.
         overrides: further parameters, by name or by node.name.
-        params: parameter file that overrides that of the cell, or None.
+        params: parameter file that overrides that of the cell.
     """
 
-    track: str
-    speed: float
-    controller: str
-    model: str
-    profile: str
-    perturb: str
-    laps: int
-    seed: int
-    mode: str
-    output: Path
-    namespace: str
-    overrides: dict[str, object]
+    track: str | None = None
+    speed: float | None = None
+    controller: str | None = None
+    model: str | None = None
+    profile: str | None = None
+    perturb: str | None = None
+    laps: int | None = None
+    seed: int | None = None
+    mode: str | None = None
+    preset: str | None = None
+    output: Path = Path('runs')
+    namespace: str = ''
+    overrides: Mapping[str, object] = field(default_factory=dict)
     params: Path | None = None
-    preset: str = 'tuned'
+
+    @property
+    def is_in_process(self) -> bool:
+        """Whether it runs without nodes."""
+        return self.mode == 'inprocess'
