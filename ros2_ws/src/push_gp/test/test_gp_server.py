@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,10 +13,10 @@ import pytest
 import rclpy
 from push_core.data.push_set import PushSet
 from push_gp.models.gp_model import GpModel
-from push_gp.models.model_file import save_model
+from push_gp.models.model_file import load_model, save_model
 from push_gp.server.conversions import pushes_of
 from push_msgs.msg import AddedPushes, ModelInfo
-from push_msgs.srv import AddPushes, Predict
+from push_msgs.srv import AddPushes, GetModel, Predict
 from push_node.ask import ask
 from push_node.qos import HISTORY, LATCHED
 from rclpy.experimental import EventsExecutor
@@ -123,6 +124,16 @@ class TestServer:
         assert np.array_equal(np.reshape(answer.mean, (40, 3)), mean)
         assert np.array_equal(np.reshape(answer.jacobian, (40, 3, 2)), jacobian)
         assert np.array_equal(np.reshape(answer.variance, (40, 3)), model.variance(*queries))
+
+    def test_it_hands_out_the_file_that_it_loaded(
+        self, client: Client, model: GpModel, tmp_path: Path
+    ) -> None:
+        answer = client.answer(
+            client.node.create_client(GetModel, 'push_gp/get_model'), GetModel.Request()
+        )
+        assert (answer.success, answer.name) == (True, 'model.npz')
+        (tmp_path / 'copy.npz').write_bytes(bytes(answer.content))
+        assert load_model(tmp_path / 'copy.npz').info.model_hash == model.info.model_hash
 
     def test_it_answers_for_none_and_for_many(self, client: Client) -> None:
         assert client.predict([], []).success

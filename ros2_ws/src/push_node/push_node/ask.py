@@ -4,6 +4,7 @@ While the nodes discover each other, a server may not know its client yet. It th
 response, and the request has to be sent again.
 """
 
+import time
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
@@ -29,3 +30,22 @@ def ask(client: Client, request: object, waits_for: WaitsFor) -> Any:
         if waits_for(future.done, RESPONSE_TIMEOUT):
             return future.result()
     return None
+
+
+class RepeatedRequest:
+    """A request that is sent again until a response comes, for nodes that must not wait."""
+
+    def __init__(self, client: Client, request: object) -> None:
+        """Sends nothing yet."""
+        self._client, self._request = client, request
+        self._future: Any = None
+        self._sent = -RESPONSE_TIMEOUT
+
+    def response(self) -> Any | None:
+        """The response, None until it has come; call it periodically."""
+        if self._future is not None and self._future.done():
+            return self._future.result()
+        late = time.monotonic() - self._sent >= RESPONSE_TIMEOUT
+        if late and self._client.service_is_ready():
+            self._future, self._sent = self._client.call_async(self._request), time.monotonic()
+        return None

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from rcl_interfaces.srv import GetParameters, ListParameters
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -102,6 +103,12 @@ class GraphService:
     def client(self, node: Node, prefix: str = '') -> Client:
         """A client of this service; `prefix` comes before the name."""
         return node.create_client(self.service_class, f'{prefix}{self.name}')
+
+
+def parameter_clients(node: Node, of: str) -> tuple[Client, Client]:
+    """Clients that list and get the parameters of the node with a fully qualified name."""
+    listing = node.create_client(ListParameters, f'{of}/list_parameters')
+    return listing, node.create_client(GetParameters, f'{of}/get_parameters')
 
 
 def short_name(topic: str) -> str:

@@ -177,6 +177,12 @@ ADD_PUSHES = GraphService(
     'gp_server',
     'extends the model by training pushes',
 )
+GET_MODEL = GraphService(
+    'push_gp/get_model',
+    'push_msgs/srv/GetModel',
+    'gp_server',
+    'the model file that the server loaded, for a recorder',
+)
 START = GraphService(
     'push_mpc/start',
     'std_srvs/srv/Trigger',
@@ -196,4 +202,4 @@ RESUME = GraphService(
     'releases a stop',
 )
 
-SERVICES = (RESET, RESET_TO_PLAN, PERTURB, PREDICT, ADD_PUSHES, START, STOP, RESUME)
+SERVICES = (RESET, RESET_TO_PLAN, PERTURB, PREDICT, ADD_PUSHES, GET_MODEL, START, STOP, RESUME)

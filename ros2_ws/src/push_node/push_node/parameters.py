@@ -7,7 +7,8 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
 T = TypeVar('T')
-_NOT_OURS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+NOT_OURS = ('use_sim_time', 'qos_overrides.', 'start_type_description_service')
+"""Beginnings of the names of parameters that rclpy declares itself."""
 
 
 def declared(node: Node, defaults: T) -> T:
@@ -25,7 +26,7 @@ def declared(node: Node, defaults: T) -> T:
         InputError: an unknown parameter, a wrong type or a value out of range.
     """
     given = node.get_parameters_by_prefix('')
-    ours = (name for name in given if not name.startswith(_NOT_OURS))
+    ours = (name for name in given if not name.startswith(NOT_OURS))
     reject_unknown(ours, defaults, node.get_name())
     changes = {
         name: _declare(node, name, value, described)

@@ -152,6 +152,14 @@ class BagWriter:
             self._facts = {**facts, **self._facts}
         self._attempt(lambda: self._writer.add_metadata(name, dict(facts)))
 
+    def attach(self, name: str, data: bytes) -> None:
+        """Attaches a file at the current place of the bag.
+
+        Raises:
+            RunError: the file cannot be written, and is closed.
+        """
+        self._attempt(lambda: self._add_attachment(name, data))
+
     def add_attachment(self, attached: Attachment) -> None:
         """Copies an attached file of another bag, piece by piece.
 
@@ -200,6 +208,10 @@ class BagWriter:
                 f'{self.path}: {reason}; recording stopped, what was recorded stays readable'
             ) from error
 
+    def _add_attachment(self, name: str, data: bytes) -> None:
+        now = time.time_ns()
+        self._writer.add_attachment(now, now, name, 'application/octet-stream', data)
+
     def _copy_attachment(self, attached: Attachment) -> None:
         """Writes the record here because the library's writer takes all data at once."""
         self._writer.flush()  # type: ignore[no-untyped-call]
@@ -212,9 +224,8 @@ class BagWriter:
     def _write_head(self, attachments: Mapping[str, bytes], profile: str) -> None:
         self._writer.start(profile=profile, library='push_bag')
         self._writer.add_metadata(FACTS_RECORD, self._facts)
-        now = time.time_ns()
         for name, data in attachments.items():
-            self._writer.add_attachment(now, now, name, 'application/octet-stream', data)
+            self._add_attachment(name, data)
         self._writer.flush()  # type: ignore[no-untyped-call]
 
     def _finish(self) -> None:

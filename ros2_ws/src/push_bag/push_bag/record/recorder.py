@@ -4,7 +4,7 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from push_core.common import InputError, RunError
+from push_core.common import InputError, RunError, flatten
 from push_node.diagnostics import Reporter
 from push_node.interface import TOPICS
 from push_node.parameters import declared
@@ -14,6 +14,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 
 from push_bag.file import BagWriter, lost_text
+from push_bag.record.cell_inputs import PARAMS_FILE, CellInputs
 from push_bag.record.recorder_settings import (
     RecorderSettings,
     read_attachments,
@@ -37,6 +38,9 @@ class Recorder(Node):  # type: ignore[misc]
     topics        more topics to record: names or patterns, separated by commas
     attachments   files to attach to the bag, one per line
     facts_file    JSON object with the facts of the run
+
+    Without a params.yaml among the attachments it asks the nodes of its namespace for their
+    parameters and the model file, and attaches these, so that the run can be recomputed.
     """
 
     def __init__(self) -> None:
@@ -47,6 +51,7 @@ class Recorder(Node):  # type: ignore[misc]
         self._core = {self.resolve_topic_name(topic.name) for topic in TOPICS if topic.core}
         self._writer = open_bag(settings)
         self._recording = Recording(self._writer, {*offers, *others}, offers)
+        self._inputs = self._unattached_inputs(settings)
         self._reporter = Reporter(self, 'recording')
         self._was_complete = False
         self._failure: RunError | None = None
@@ -66,6 +71,14 @@ class Recorder(Node):  # type: ignore[misc]
             super().destroy_node()
         if self._failure is not None:
             raise self._failure
+
+    def _unattached_inputs(self, settings: RecorderSettings) -> CellInputs | None:
+        """What to fetch from the nodes; None where their parameters are attached already."""
+        attached = {Path(path).name for path in settings.attachments.splitlines()}
+        if PARAMS_FILE in attached:
+            return None
+        own = {name: value for name, (value, _) in flatten(settings).items()}
+        return CellInputs(self, self._writer, own)
 
     def _start_timers(self, settings: RecorderSettings) -> None:
         # steady, because simulated time may stand still
@@ -97,6 +110,8 @@ class Recorder(Node):  # type: ignore[misc]
     def _discover(self) -> None:
         refused = set(self._recording.refused)
         self._recording.discover()
+        if self._inputs is not None:
+            self._inputs.poll()
         for topic in self._recording.refused.keys() - refused:
             self.get_logger().warning(f'{topic}: {self._recording.refused[topic]}')
         if not self._was_complete and not self._missing():

@@ -1,18 +1,20 @@
-"""The model server node: `push_gp/predict`, `push_gp/add_pushes`, `model_info`."""
+"""The model server node: `push_gp/predict`, `add_pushes`, `get_model`, and `model_info`."""
 
 import sys
+from array import array
 from collections.abc import Sequence
+from pathlib import Path
 
 from push_core.common import PushError
 from push_core.data import PushSet
-from push_msgs.srv import AddPushes, Predict
+from push_msgs.srv import AddPushes, GetModel, Predict
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared
 from push_node.spin import run_node
 from rclpy.node import Node
 
-from push_gp.models import model_named
+from push_gp.models import ANALYTICAL, model_named
 from push_gp.server.conversions import (
     added_pushes_message,
     flat,
@@ -38,6 +40,7 @@ class GpServer(Node):  # type: ignore[misc]
         super().__init__('gp_server', automatically_declare_parameters_from_overrides=True)
         settings = declared(self, ServerSettings())
         model = model_named(settings.model, settings.slider, settings.distance)
+        self._file = _file_of(settings.model)
         self._server = ModelServer(model, settings.max_points)
         self._answered = self._refused = 0
         self._announcements = interface.MODEL_INFO.publisher(self)
@@ -46,6 +49,7 @@ class GpServer(Node):  # type: ignore[misc]
         self._entities = (
             interface.PREDICT.service(self, self._predict),
             interface.ADD_PUSHES.service(self, self._add_pushes),
+            interface.GET_MODEL.service(self, self._get_model),
             self.create_timer(REPORT_PERIOD, self._report),
         )
         self._announce()
@@ -75,6 +79,14 @@ class GpServer(Node):  # type: ignore[misc]
             self._announce_pushes(pushes)
             self._announce()
         response.points = self._server.info.points
+        return response
+
+    def _get_model(
+        self, _request: GetModel.Request, response: GetModel.Response
+    ) -> GetModel.Response:
+        response.success = True
+        response.name, content = self._file
+        response.content = array('B', content)
         return response
 
     def _announce_pushes(self, pushes: PushSet) -> None:
@@ -110,6 +122,11 @@ class GpServer(Node):  # type: ignore[misc]
             'refused': str(self._refused),
         }
         self._reporter.report(True, 'ready', values)
+
+
+def _file_of(model: str) -> tuple[str, bytes]:
+    """Name and content of a model file; both are empty for the analytical model."""
+    return ('', b'') if model == ANALYTICAL else (Path(model).name, Path(model).read_bytes())
 
 
 def main(argv: Sequence[str] | None = None) -> int:
