@@ -6,7 +6,8 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import NoReturn
 
 from push_core.common.errors import InputError, PushError
@@ -44,9 +45,18 @@ def run_command(
     Returns:
         Exit status: 0 done, 1 the run or check failed, 2 the command was wrong, 130 interrupted.
     """
+    with _signals_taken():
+        return _run(parser, work, argv)
+
+
+def _run(
+    parser: Parser,
+    work: Callable[[argparse.Namespace], int | None],
+    argv: Sequence[str] | None,
+) -> int:
     debug = False
     try:
-        _take_signals()
+        release_interrupts()
         arguments = parser.parse_args(argv)
         debug = arguments.debug
         _check_output()
@@ -69,13 +79,22 @@ def run_command(
         return INTERRUPTED
 
 
-def _take_signals() -> None:
-    if threading.current_thread() is threading.main_thread():
-        handler = InterruptOnce()
-        if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as for what runs behind `&`
-            signal.signal(signal.SIGINT, handler)
-        signal.signal(signal.SIGTERM, handler)
-        release_interrupts()
+@contextmanager
+def _signals_taken() -> Iterator[None]:
+    """Lets SIGINT and SIGTERM raise KeyboardInterrupt; restores the handlers at the end."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    handler, before = InterruptOnce(), {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        # what runs in the background of a shell ignores SIGINT
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            before[number] = signal.signal(number, handler)
+    try:
+        yield
+    finally:
+        for number, old in before.items():
+            signal.signal(number, old)
 
 
 def _check_output() -> None:
