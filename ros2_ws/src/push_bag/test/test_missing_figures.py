@@ -109,7 +109,10 @@ def test_the_json_has_the_reason_too(rewritten, capsys):
     [
         ('/pusher_pose', 'contact_losses'),
         ('/controller_state', 'solve_ms'),
+        ('/controller_state', 'completed'),
+        ('/controller_state', 'deadline_misses'),
         ('/pusher_velocity_cmd', 'pose_to_command_ms'),
+        ('/pusher_velocity_cmd', 'deadline_misses'),
         ('/model_info', 'model'),
     ],
 )

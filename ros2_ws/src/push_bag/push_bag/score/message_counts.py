@@ -32,9 +32,10 @@ def message_counts(run: RunSeries) -> dict[str, dict[str, int | None]]:
 def foreign_commands(run: RunSeries) -> int:
     """Number of commands that another publisher sent: they answer no tick of the controller.
 
-    Ticks that were lost on their way to the recorder do not count against their commands.
+    Ticks that were lost on their way to the recorder do not count against their commands; where no
+    tick was recorded, nothing tells.
     """
-    if not run.foreign_commands:
+    if not run.foreign_commands or not run.states.stamp.size:
         return 0
     states = interface.CONTROLLER_STATE.short_name
     counts = message_counts(run)
@@ -51,10 +52,9 @@ def missing_stamps(stamps: Nanoseconds | None) -> int | None:
 
 
 def _counts(seen: Traffic, missing: int | None) -> dict[str, int | None]:
-    known = seen.numbered or not seen.received
     return {
         'received': seen.received,
-        'lost': seen.lost if known else missing,
+        'lost': seen.lost if seen.lost_is_known else missing,
         'missing_stamps': missing,
         'middleware_lost': seen.middleware_lost,
     }

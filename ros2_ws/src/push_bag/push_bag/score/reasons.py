@@ -129,6 +129,12 @@ def _of_commands(run: RunSeries) -> str:
     return reason or 'no command has the stamp of a pose'
 
 
+def _of_misses(run: RunSeries) -> str:
+    return _pose_reason(run, interface.OBJECT_POSE) or topic_reason(
+        run.types, interface.PUSHER_VELOCITY_CMD
+    )
+
+
 def _of_ticks(run: RunSeries) -> str:
     return topic_reason(run.types, interface.CONTROLLER_STATE)
 
@@ -149,7 +155,7 @@ REASONS: Mapping[str, Callable[[RunSeries], str]] = {
     'solve_ms': _of_times,
     'tick_ms': _of_times,
     'pose_to_command_ms': _of_commands,
-    'deadline_misses': _of_errors,
+    'deadline_misses': _of_misses,
     'holds': _of_ticks,
     'limited': _of_ticks,
 }

@@ -16,6 +16,7 @@ from push_core.common import InputError, finite
 from push_core.tracks import is_completed
 from push_msgs.msg import ControllerState
 from push_node import interface
+from push_node.endpoints import short_name
 
 from push_bag.run import Floats, Reference, RunSeries, read_starts
 from push_bag.score.contact import contact, loss_intervals
@@ -23,7 +24,12 @@ from push_bag.score.laps import per_lap
 from push_bag.score.message_counts import foreign_commands, message_counts
 from push_bag.score.reasons import left_out, other_topics, reasons
 from push_bag.score.timing import timing
-from push_bag.score.tracking import Tracking, tracking_errors, true_tracking_errors
+from push_bag.score.tracking import (
+    Tracking,
+    during_tracking,
+    tracking_errors,
+    true_tracking_errors,
+)
 
 LIMITS = {
     'not_finite': ControllerState.LIMITED_NOT_FINITE,
@@ -198,8 +204,15 @@ def _times(run: RunSeries) -> dict[str, Any]:
         'solve_ms': _tail(times.solve),
         'tick_ms': _tail(times.tick),
         'pose_to_command_ms': _tail(times.pose_to_command),
-        'deadline_misses': times.deadline_misses if run.object.stamp.size else None,
+        'deadline_misses': times.deadline_misses if _knows_commands(run) else None,
     }
+
+
+def _knows_commands(run: RunSeries) -> bool:
+    """Whether poses during tracking and the topic of the commands were recorded."""
+    recorded = {short_name(name) for name in run.types}
+    during = during_tracking(run, run.object.stamp).any()
+    return bool(during) and interface.PUSHER_VELOCITY_CMD.short_name in recorded
 
 
 def _tail(values: Floats) -> dict[str, float]:

@@ -58,14 +58,13 @@ class ByteFile:
     def find(self, wanted: bytes, begin: int, end: int) -> int:
         """Offset of the first byte that is `wanted` in a range; -1 without one."""
         at = begin
-        while at < end:
-            window = self.read(at, min(WINDOW, end - at))
-            if not window:
-                return -1
-            found = window.find(wanted)
+        while at < min(end, self.size):
+            if not self._begin <= at < self._begin + len(self._window):
+                self._window, self._begin = self._from_disk(at, WINDOW), at
+            found = self._window.find(wanted, at - self._begin, end - self._begin)
             if found >= 0:
-                return at + found
-            at += len(window)
+                return self._begin + found
+            at = self._begin + len(self._window)
         return -1
 
     def _from_disk(self, at: int, count: int) -> bytes:
