@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from push_bag.commands.export import main as export
 from push_bag.commands.score import main
 from push_bag.file.bag_writer import BagWriter
 from push_bag.file.reader import BagReader
@@ -218,3 +219,12 @@ def test_a_reference_that_is_no_number_is_refused(rewritten):
 
     with pytest.raises(InputError, match='times or poses that cannot be'):
         score_run(rewritten(change=spoilt, topic='/nominal_trajectory'))
+
+
+@pytest.mark.parametrize('topic', ['controller_state', 'nominal_trajectory'])
+def test_export_names_the_topic_that_is_missing(rewritten, tmp_path, capsys, topic):
+    run = str(rewritten({f'/{topic}': '/arm/other'}))
+    assert export([run, '--csv', '-o', str(tmp_path / 'run.csv')]) == 2
+    error = capsys.readouterr().err
+    assert f'no topic {topic}; of its type' in error
+    assert 'it holds /arm/other' in error

@@ -233,3 +233,7 @@ def test_the_stop_reason_of_the_controller_counts_if_the_cell_gives_none(record)
 def test_the_cell_gives_the_reason_for_a_controller_that_died(record):
     score = score_run(record(end_reason='mpc_node ended with killed by signal 9'))
     assert score['stop_reason'] == 'mpc_node ended with killed by signal 9'
+
+
+def test_a_run_whose_reference_does_not_move_is_not_completed(record):
+    assert score_run(record(path=lambda _time: np.zeros(3)))['completed'] is False

@@ -38,6 +38,8 @@ LIMITS = {
     'workspace': ControllerState.LIMITED_WORKSPACE,
 }
 
+STILL = 1e-3  # [m] of a reference; one that moves less leads nowhere
+
 
 def score_run(folder: Path) -> dict[str, Any]:
     """The score of a recorded run.
@@ -100,6 +102,8 @@ def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool 
     modes = run.state('mode')
     arrived, stopped = ControllerState.DONE in modes, ControllerState.STOPPED in modes
     if modes.size and (stopped or not arrived):
+        return False
+    if np.ptp(reference.pose[:, :2], axis=0).max() < STILL:
         return False
     touching = contact(run, reference)
     if not tracking.stamp.size or not touching.stamp.size:

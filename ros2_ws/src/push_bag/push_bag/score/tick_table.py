@@ -5,9 +5,11 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 from push_core.common import InputError
+from push_node import interface
 
 from push_bag.run import Floats, Nanoseconds, Reference, RunSeries, Stamped
 from push_bag.score.contact import contact
+from push_bag.score.reasons import topic_reason
 from push_bag.score.tracking import Tracking, tracking_errors
 
 TickTable: TypeAlias = dict[str, NDArray[np.float64] | NDArray[np.int64]]
@@ -21,8 +23,10 @@ def tick_table(run: RunSeries) -> TickTable:
         InputError: the run holds no tick or no reference.
     """
     stamp, reference_time = run.states.stamp, run.state('reference_time')
-    if not stamp.size or run.reference is None:
-        raise InputError('the bag holds no ticks of a controller or no nominal trajectory')
+    if not stamp.size:
+        raise InputError(topic_reason(run.types, interface.CONTROLLER_STATE))
+    if run.reference is None:
+        raise InputError(topic_reason(run.types, interface.NOMINAL_TRAJECTORY))
     return {
         't_s': (stamp - stamp[0]) * 1e-9,
         'stamp_ns': stamp,

@@ -135,9 +135,11 @@ def _models_of(run: RecordedRun, parameters: CellParameters, files: dict[str, Pa
 def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:
     """The attachments as files, by name."""
     files = {}
-    for name, data in run.reader.attachments.items():
-        files[Path(name).name] = folder / Path(name).name
-        files[Path(name).name].write_bytes(data)
+    for each in run.reader.attached:
+        path = folder / Path(each.name).name
+        with path.open('wb') as stream:
+            stream.writelines(each.blocks())
+        files[path.name] = path
     return files
 
 

@@ -26,7 +26,8 @@ class RecordedModel:
         """
         self._server = ModelServer(model, max_points)
         names = [name for name in reader.topics if short_name(name) == ADDED_PUSHES.short_name]
-        self._added = iter([record.message() for record in reader.records(names)])
+        added = sorted(reader.records(names), key=lambda record: record.log_ns)
+        self._added = iter([record.message() for record in added])
 
     def grown_to(self, model_id: str) -> PushModel:
         """The model with an id; ids must be asked for in the order of the run.
