@@ -1,14 +1,17 @@
 """The same seed gives the same trajectory, whatever the mode and however busy the machine."""
 
+import json
 import os
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from cell_command import Ended
+from cell_command import CELL, HANG, Ended, is_pushing, wait_until
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_run
 from push_msgs.msg import ControllerState
@@ -20,7 +23,7 @@ LAP = ('--track', 'line', '--speed', '0.15', '--perturb', 'tangential', '--profi
 def busy_cores() -> Iterator[None]:
     burners = [
         subprocess.Popen([sys.executable, '-c', 'while True: pass'])
-        for _ in range(os.cpu_count() or 1)
+        for _ in range(2 * (os.cpu_count() or 1))
     ]
     try:
         yield
@@ -28,6 +31,22 @@ def busy_cores() -> Iterator[None]:
         for burner in burners:
             burner.kill()
             burner.wait()
+
+
+def recorder_of(pid: int) -> int | None:
+    """Process id of the recorder below a process."""
+    for child in Path(f'/proc/{pid}/task/{pid}/children').read_text().split():
+        if b'recorder' in Path(f'/proc/{child}/cmdline').read_bytes():
+            return int(child)
+        if (found := recorder_of(int(child))) is not None:
+            return found
+    return None
+
+
+def missing_messages(folder: Path) -> dict[str, int]:
+    """Messages that the bag lacks, by topic, for topics that lack any."""
+    counts = json.loads((folder / 'score.json').read_text())['messages']
+    return {topic: seen['lost'] for topic, seen in counts.items() if seen['lost']}
 
 
 def trajectory(folder: Path) -> np.ndarray:
@@ -53,9 +72,29 @@ def test_lockstep_repeats_bit_for_bit_on_busy_cores_and_agrees_with_in_process(
     np.testing.assert_array_equal(first, second)
     np.testing.assert_allclose(trajectory(in_process.folder), first, rtol=0.0, atol=1e-9)
     assert not np.array_equal(trajectory(other_seed.folder), first)
+    assert missing_messages(busy.folder) == {}
     for run in (busy, in_process):
         again = recomputed(run.folder, Changes())
         assert (again.differs.sum(), again.skipped) == (0, 0)
+
+
+def test_a_recorder_that_does_not_run_for_a_second_misses_nothing_in_lockstep(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    lap = [*CELL, '--mode', 'lockstep', '-o', str(tmp_path)]
+    with subprocess.Popen(lap, env=environment, stdout=subprocess.PIPE, text=True) as cell:
+        wait_until(lambda: is_pushing(tmp_path), cell)
+        recorder = recorder_of(cell.pid)
+        assert recorder is not None
+        for _ in range(2):
+            os.kill(recorder, signal.SIGSTOP)
+            time.sleep(1.0)
+            os.kill(recorder, signal.SIGCONT)
+            time.sleep(0.2)
+        assert cell.poll() is None, 'the lap was over before the recorder was stopped twice'
+        out, _ = cell.communicate(timeout=HANG)
+    assert cell.returncode == 0
+    assert missing_messages(Path(out.splitlines()[-1])) == {}
 
 
 def test_the_family_of_modes_decides_the_same_in_both_modes(

@@ -51,9 +51,15 @@ class GraphTopic:
         """The Python class of the message; its package is imported here."""
         return _interface_class(self.type_name)
 
-    def publisher(self, node: Node, prefix: str = '') -> Publisher:
-        """A publisher of this topic; `prefix` comes before the name."""
-        return node.create_publisher(self.message_class, f'{prefix}{self.name}', self.qos)
+    def publisher(self, node: Node, prefix: str = '', qos: QoSProfile | None = None) -> Publisher:
+        """A publisher of this topic.
+
+        Args:
+            node: that publishes.
+            prefix: comes before the name.
+            qos: offered instead of the topic's own.
+        """
+        return node.create_publisher(self.message_class, f'{prefix}{self.name}', qos or self.qos)
 
     def subscription(
         self,

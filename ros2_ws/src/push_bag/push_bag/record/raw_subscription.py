@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 from rclpy.event_handler import QoSSubscriptionEventType, UnsupportedEventTypeError
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from push_bag.file import message_class
 
-DEPTH = 1000  # messages that may wait between two polls
+DEPTH = 1000  # best-effort messages that may wait between two polls
 
 
 class ReceivedMessage(NamedTuple):
@@ -111,6 +111,8 @@ def _matching(offered: QoSProfile) -> QoSProfile:
     reliable = offered.reliability == ReliabilityPolicy.RELIABLE
     latched = offered.durability == DurabilityPolicy.TRANSIENT_LOCAL
     return QoSProfile(
+        # a reliable publisher keeps what finds no room here until there is room
+        history=HistoryPolicy.KEEP_ALL if reliable else HistoryPolicy.KEEP_LAST,
         depth=DEPTH,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,

@@ -12,6 +12,7 @@ from push_msgs.msg import ControllerState
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
+from push_node.publishers import PUBLISHERS
 from push_node.realtime import enter_realtime
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
@@ -69,9 +70,10 @@ class MpcNode(Node):  # type: ignore[misc]
         self._recorder = RecorderWatch(self)
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
-        self._commands = interface.PUSHER_VELOCITY_CMD.publisher(self)
-        self._states = interface.CONTROLLER_STATE.publisher(self)
-        self._horizons = interface.HORIZON.publisher(self)
+        self._outputs = PUBLISHERS[self._settings.mode](self)
+        self._commands = self._outputs.of(interface.PUSHER_VELOCITY_CMD)
+        self._states = self._outputs.of(interface.CONTROLLER_STATE)
+        self._horizons = self._outputs.of(interface.HORIZON)
         self._announce_plan()
         self._offer_services()
         self._start_timers()
@@ -115,6 +117,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
         self._publish_horizon(tick, stamp)
         self._extrapolations += self._extrapolates(tick)
+        self._outputs.step()
         self._controller.prepare_next()
 
     def _measured(self) -> tuple[Array, Array]:

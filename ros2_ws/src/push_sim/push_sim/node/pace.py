@@ -6,6 +6,7 @@ from typing import Protocol
 
 from push_core.geometry import Array
 from push_node import interface
+from push_node.publishers import GraphPublishers
 from push_node.stamps import to_stamp
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -43,7 +44,13 @@ class RealtimePace:
     and are exactly 10 ms apart between two resets unless the sensor jitters.
     """
 
-    def __init__(self, node: Node, plant: Plant, publish: Callable[[Observation], None]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        plant: Plant,
+        _publishers: GraphPublishers,
+        publish: Callable[[Observation], None],
+    ) -> None:
         self.late_frames = 0
         self._node = node
         self._plant = plant
@@ -93,10 +100,17 @@ class LockstepPace:
 
     late_frames: int = 0
 
-    def __init__(self, node: Node, plant: Plant, publish: Callable[[Observation], None]) -> None:
+    def __init__(
+        self,
+        node: Node,
+        plant: Plant,
+        publishers: GraphPublishers,
+        publish: Callable[[Observation], None],
+    ) -> None:
         self._plant = plant
+        self._publishers = publishers
         self._publish = publish
-        self._clock = interface.CLOCK.publisher(node)
+        self._clock = publishers.of(interface.CLOCK)
         self._answered = False
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(_RESEND_PERIOD, self._resend, clock=steady)
@@ -110,6 +124,7 @@ class LockstepPace:
         if stamp != self.stamp(self._shown.time):
             return
         self._answered = True
+        self._publishers.step()
         self._plant.command(velocity, self._plant.time)
         self._show(self._plant.step_until_seen())
 

@@ -10,6 +10,7 @@ from push_msgs.srv import Perturb, Reset
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
+from push_node.publishers import PUBLISHERS, GraphPublishers
 from push_node.realtime import enter_realtime
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
@@ -30,7 +31,9 @@ from push_sim.plant import Observation, Perturbation, PerturbationKind, Plant
 
 _SCENE_PERIOD = 0.05
 _HEALTH_PERIOD = 1.0
-_PACES: dict[str, Callable[[Node, Plant, Callable[[Observation], None]], Pace]] = {
+_PACES: dict[
+    str, Callable[[Node, Plant, GraphPublishers, Callable[[Observation], None]], Pace]
+] = {
     'realtime': RealtimePace,
     'lockstep': LockstepPace,
 }
@@ -47,8 +50,9 @@ class SimNode(Node):  # type: ignore[misc]
         self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
         self._plan: NominalTrajectory | None = None
+        self._outputs = PUBLISHERS[self._settings.mode](self)
         self._make_publishers()
-        self._pace = _PACES[self._settings.mode](self, self._plant, self._publish)
+        self._pace = _PACES[self._settings.mode](self, self._plant, self._outputs, self._publish)
         self._pace.restart(self._start())
         interface.PUSHER_VELOCITY_CMD.subscription(self, self._on_command)
         interface.NOMINAL_TRAJECTORY.subscription(self, self._on_plan)
@@ -62,18 +66,20 @@ class SimNode(Node):  # type: ignore[misc]
 
     def destroy_node(self) -> None:
         """Also closes the plant."""
+        self._outputs.flush()
         super().destroy_node()
         self._plant.close()
 
     def _make_publishers(self) -> None:
         # before the poses: a recorder that has discovered the poses has then discovered it too
-        self._truth = interface.GROUND_TRUTH.publisher(self)
+        publisher = self._outputs.of
+        self._truth = publisher(interface.GROUND_TRUTH)
         self._truth_message = GroundTruthMessage(self._slider)
-        self._object = interface.OBJECT_POSE.publisher(self)
-        self._pusher = interface.PUSHER_POSE.publisher(self)
-        self._perturbation = interface.PERTURBATION.publisher(self)
-        self._scene = interface.SCENE_MARKERS.publisher(self)
-        self._tf = interface.TRANSFORMS.publisher(self)
+        self._object = publisher(interface.OBJECT_POSE)
+        self._pusher = publisher(interface.PUSHER_POSE)
+        self._perturbation = publisher(interface.PERTURBATION)
+        self._scene = publisher(interface.SCENE_MARKERS)
+        self._tf = publisher(interface.TRANSFORMS)
         self._frames = Transforms(self.get_namespace())
         self._reporter = Reporter(self, 'plant')
 
