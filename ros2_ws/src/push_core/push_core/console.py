@@ -10,6 +10,8 @@ import sys
 from collections.abc import Callable
 from importlib import import_module
 
+from push_core.middleware import set_missing_middleware_aside
+
 
 def console_script(module: str) -> Callable[[], int]:
     """The console script of a command or node.
@@ -22,6 +24,7 @@ def console_script(module: str) -> Callable[[], int]:
         hold_interrupts()
         occupy_standard_streams()
         print_on_any_terminal()
+        set_missing_middleware_aside()
         try:
             return int(import_module(module).main())
         finally:

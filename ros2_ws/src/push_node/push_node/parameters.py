@@ -2,7 +2,7 @@
 
 from typing import Any, TypeVar
 
-from push_core.common import Described, flatten, reject_unknown, replaced
+from push_core.common import Described, InputError, flatten, reject_unknown, replaced
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 
@@ -25,6 +25,7 @@ def declared(node: Node, defaults: T) -> T:
     Raises:
         InputError: an unknown parameter, a wrong type or a value out of range.
     """
+    check_sim_time(node.get_parameter('use_sim_time').value)
     given = node.get_parameters_by_prefix('')
     ours = (name for name in given if not name.startswith(NOT_OURS))
     reject_unknown(ours, defaults, node.get_name())
@@ -33,6 +34,16 @@ def declared(node: Node, defaults: T) -> T:
         for name, (value, described) in flatten(defaults).items()
     }
     return replaced(defaults, changes)
+
+
+def check_sim_time(value: object) -> None:
+    """Checks a value of use_sim_time, which rclpy itself reads.
+
+    Raises:
+        InputError: it is neither true nor false.
+    """
+    if not isinstance(value, bool):
+        raise InputError(f'parameter use_sim_time takes bool, not {value!r}')
 
 
 def override(node: Node, name: str, default: T) -> T:

@@ -19,8 +19,11 @@ from push_core.common import (
 )
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
+
+from push_node.parameter_yaml import load_yaml
+from push_node.parameters import check_sim_time
+from push_node.start_ros import init_ros
 
 _LONGEST_WAIT = 0.1  # [s]
 _HELP = """
@@ -63,7 +66,7 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
             return 0
         if take_held_interrupt():
             return INTERRUPTED
-        _init(arguments)
+        init_ros(arguments)
         node = _made(make_node)
         try:
             spinner = Spinner(node)
@@ -118,14 +121,18 @@ def _wants_help(arguments: Sequence[str]) -> bool:
     """Whether --help is given; a node has no other argument of its own."""
     with _ros_arguments():
         own = remove_ros_args(arguments)[1:]
+    _check_clock(arguments)
     if own and own[0] not in ('-h', '--help'):
         raise InputError(f'unknown argument {own[0]!r}; parameters follow --ros-args, see --help')
     return bool(own)
 
 
-def _init(arguments: Sequence[str]) -> None:
-    with _ros_arguments():
-        rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
+def _check_clock(arguments: Sequence[str]) -> None:
+    """Refuses a use_sim_time that rclpy would ignore with an error in its log."""
+    for argument in arguments:
+        name, separator, value = argument.partition(':=')
+        if separator and name.rpartition(':')[2] == 'use_sim_time':
+            check_sim_time(load_yaml(value))
 
 
 @contextmanager

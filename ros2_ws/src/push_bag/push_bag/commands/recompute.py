@@ -8,7 +8,7 @@ from pathlib import Path
 import rclpy
 from push_core.common import InputError, Parser, write_atomically
 from push_node.override_text import parsed_override
-from rclpy.signals import SignalHandlerOptions
+from push_node.start_ros import init_ros
 
 from push_bag.replay import Changes, Recomputed, recomputed
 from push_bag.replay.node_comparison import compared_with_node
@@ -87,7 +87,7 @@ def ask(arguments: argparse.Namespace) -> int:
         RunError: no controller answers.
     """
     # Python keeps handling Ctrl-C, so that it ends the wait for a command
-    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    init_ros()
     try:
         result = compared_with_node(arguments.run, rclpy.create_node('replay'))
     finally:

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import rclpy
 from push_core.common import InputError, Parser, run_command
+from push_node.start_ros import init_ros
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
 from push_bag.commands.recompute import (
     add_recompute_arguments,
@@ -95,7 +95,7 @@ def _work(arguments: argparse.Namespace) -> int:
     if arguments.start > bag.seconds:
         raise InputError(f'--start {arguments.start:g} is after the end at {bag.seconds:.2f} s')
     # Python keeps handling Ctrl-C, so that it ends the wait for the next message
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    init_ros()
     try:
         _replay(rclpy.create_node('replay'), bag, arguments)
     finally:

@@ -5,10 +5,10 @@ import time
 from collections.abc import Callable, Sequence
 
 import rclpy
-from push_core.common import RunError, describe
+from push_core.common import InputError, RunError, describe
 from push_node.spin import Spinner, stop_on_signals
+from push_node.start_ros import init_ros
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
 from push_bringup.graph.starter import Starter
 
@@ -17,13 +17,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Starts the cell in the namespace of the ROS arguments.
 
     Returns:
-        Exit status: 0 started, or stopped by a signal; 1 the cell did not become ready.
+        Exit status: 0 started, or stopped by a signal; 1 the cell did not become ready; 2 an
+        argument or the environment is wrong.
     """
     stop_on_signals()
     arguments = sys.argv if argv is None else ['start', *argv]
-    rclpy.init(args=arguments, signal_handler_options=SignalHandlerOptions.NO)
     try:
+        init_ros(arguments)
         return _started(Node('start'))
+    except InputError as error:
+        sys.stderr.write(f'start: {error}\n')
+        return error.status
     finally:
         rclpy.try_shutdown()
 

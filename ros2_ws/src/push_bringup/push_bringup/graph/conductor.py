@@ -10,8 +10,8 @@ from push_msgs.msg import ControllerState, NominalTrajectory
 from push_node import interface
 from push_node.ask import READY_TIMEOUT
 from push_node.spin import Spinner, stop_on_signals
+from push_node.start_ros import init_ros
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from std_msgs.msg import String
 from tqdm import tqdm
 
@@ -27,7 +27,7 @@ class Conductor:
 
     def __init__(self, namespace: str, processes: Processes) -> None:
         stop_on_signals()
-        rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+        init_ros()
         self._node = Node('cell', namespace=namespace)
         self._processes = processes
         self._spinner = Spinner(self._node)

@@ -4,6 +4,8 @@ import os
 import time
 from pathlib import Path
 
+from push_node.ros_environment import check_ros_environment
+
 from push_bringup.graph.cell_lock import CellLock
 from push_bringup.graph.processes import Processes
 from push_bringup.setup import installed_config
@@ -24,8 +26,10 @@ def run_graph(params: Path, namespace: str, logs: Path) -> str:
         Reason of an early end, else an empty string.
 
     Raises:
+        InputError: the environment lacks what ROS needs.
         KeyboardInterrupt: a stop was requested.
     """
+    check_ros_environment()
     with (
         CellLock(namespace),
         Processes(params, namespace, logs) as processes,

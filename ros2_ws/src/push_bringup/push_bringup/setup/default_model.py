@@ -29,9 +29,19 @@ def default_model() -> Path:
     path = _cache() / f'simulated_{POINTS}_pushes_seed_{SEED}_{code_key(MODEL_SOURCES)[:12]}.npz'
     if not _is_valid(path):
         sys.stderr.write(f'learning the default model from {POINTS} simulated pushes, once\n')
-        path.parent.mkdir(parents=True, exist_ok=True)
+        _make_folder(path.parent)
         _train(path)
     return path
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(
+            f'no place for the default model, {folder}: {error.strerror}; set XDG_CACHE_HOME to a '
+            'folder that can be written'
+        ) from error
 
 
 def _train(path: Path) -> None:
