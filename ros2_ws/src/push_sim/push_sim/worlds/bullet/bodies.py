@@ -25,6 +25,8 @@ HALF_HEIGHT = 0.0065
 _FEET = 4
 _FOOT_RADIUS = 0.001
 _TIP_MASS = 1e6
+_SMALLEST_RADIUS = 1e-4
+"""[m]; PyBullet has no points, so a point pusher touches this much early."""
 
 
 def make_object(client: int, slider: Slider, feet: Sequence[Pair]) -> int:
@@ -44,7 +46,9 @@ def make_object(client: int, slider: Slider, feet: Sequence[Pair]) -> int:
 def make_tip(client: int, settings: WorldSettings, slider: Slider) -> int:
     """The round tip."""
     sphere = pybullet.createCollisionShape(
-        pybullet.GEOM_SPHERE, radius=slider.tip_radius, physicsClientId=client
+        pybullet.GEOM_SPHERE,
+        radius=max(slider.tip_radius, _SMALLEST_RADIUS),
+        physicsClientId=client,
     )
     return make_body(client, _TIP_MASS, sphere, settings.friction_pusher)
 
