@@ -81,16 +81,26 @@ def log(numbers, times=None):
         ([9, 1, 8, 2, 7], 4),
         ([1, 2, 3, 1, 2, 3], 0),
         ([7], 0),
+        ([1, 1, 1], 0),
         ([4294967295, 1, 2], 0),
     ],
-    ids=['from 0', 'from 0 with a loss', 'mixed up', 'gaps mixed up', 'restart', 'one', 'wrapped'],
+    ids=[
+        'from 0',
+        'from 0 with a loss',
+        'mixed up',
+        'gaps mixed up',
+        'restart',
+        'one',
+        'three publishers',
+        'wrapped',
+    ],
 )
 def test_numbers_tell_what_is_lost(numbers, lost):
     seen = log(numbers).traffic()
     assert (seen.lost_is_known, seen.lost) == (True, lost)
 
 
-@pytest.mark.parametrize('numbers', [[0, 0, 0], [0], [1, 1, 1], [5, 5]])
+@pytest.mark.parametrize('numbers', [[0, 0, 0], [0], [1] * 20, [5] * 200])
 def test_equal_numbers_tell_nothing(numbers):
     seen = log(numbers).traffic()
     assert not seen.lost_is_known

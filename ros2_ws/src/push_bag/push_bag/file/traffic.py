@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from push_bag.file.sequence_gaps import SequenceGaps
 
+MOST_PUBLISHERS = 10  # that send one message each on a topic such as /tf_static
 Key = TypeVar('Key', bound=Hashable)
 
 
@@ -79,8 +80,9 @@ class Traffic:
 
     @property
     def numbered(self) -> bool:
-        """Whether sequence numbers tell the losses: not if all messages carry the same one."""
-        return self._numbers_differ or (self._first_number > 0 and self.received == 1)
+        """Whether sequence numbers tell the losses: not if many messages carry the same one."""
+        few = self._first_number > 0 and self.received <= MOST_PUBLISHERS
+        return self._numbers_differ or few
 
     @property
     def lost(self) -> int:
