@@ -1,5 +1,6 @@
 """The node as a process of its own, over real DDS; this process is plant, recorder and model."""
 
+import itertools
 import signal
 import subprocess
 import sys
@@ -28,6 +29,7 @@ pytestmark = pytest.mark.processes
 
 PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 LINE = 'track:=line'
+DOMAINS = itertools.cycle(range(1, 101))
 
 
 class Cell:
@@ -132,15 +134,17 @@ class Cell:
 
 
 @pytest.fixture
-def context() -> Iterator[None]:
+def make_cell(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Cell]]:
+    """Makes cells that no other test sees: an executor keeps its node in the graph."""
+    monkeypatch.setenv('ROS_DOMAIN_ID', str(next(DOMAINS)))
     rclpy.init()
-    yield
+    yield Cell
     rclpy.try_shutdown()
 
 
 @pytest.fixture
-def cell(context) -> Cell:
-    return Cell()
+def cell(make_cell) -> Cell:
+    return make_cell()
 
 
 @pytest.fixture
@@ -427,9 +431,9 @@ def test_stamps_too_far_apart_are_named(cell, started) -> None:
     ],
     ids=['default', 'sensor data', 'latched'],
 )
-def test_poses_of_any_quality_of_service_are_heard(context, started, profile) -> None:
+def test_poses_of_any_quality_of_service_are_heard(make_cell, started, profile) -> None:
     started(LINE)
-    Cell(profile).begin()
+    make_cell(profile).begin()
 
 
 def test_a_node_in_lockstep_says_that_there_is_no_clock(cell, started) -> None:
@@ -437,6 +441,19 @@ def test_a_node_in_lockstep_says_that_there_is_no_clock(cell, started) -> None:
     cell.announce_model()
     cell.poses_on = True
     cell.call_until('start', lambda answer: 'nothing on /clock' in answer.message)
+
+
+def test_a_second_source_of_poses_is_named_and_stops_the_run(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    camera = Node('camera')
+    publisher = camera.create_publisher(PoseStamped, 'object_pose', qos.POSE)
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
+    assert cell.states[-1].stop_reason == 'object_pose has 2 publishers: /camera, /cell'
+    camera.destroy_publisher(publisher)
+    camera.destroy_node()
+    assert cell.call('resume').success
+    cell.call_until('start', lambda answer: answer.success)
 
 
 def test_a_second_commander_is_named_and_stops_the_run(cell, started) -> None:
@@ -449,4 +466,5 @@ def test_a_second_commander_is_named_and_stops_the_run(cell, started) -> None:
     assert cell.call('resume').success
     cell.call_until('start', lambda answer: '/teleop commands the tip as well' in answer.message)
     rogue.destroy_publisher(publisher)
+    rogue.destroy_node()
     cell.call_until('start', lambda answer: answer.success)

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 import pytest
 import rclpy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.physics.slider import Slider
 from push_msgs.msg import GroundTruth, NominalTrajectory, Perturbation
@@ -47,6 +48,8 @@ class Client:
         self.node.create_subscription(
             GroundTruth, 'push_sim/ground_truth', self.truths.append, STATE
         )
+        self.problems: list[str] = []
+        self.node.create_subscription(DiagnosticArray, '/diagnostics', self._on_health, 10)
         self._reset = self.node.create_client(Reset, 'push_sim/reset')
         self._perturb = self.node.create_client(Perturb, 'push_sim/perturb')
         self._reset_to_plan = self.node.create_client(Trigger, 'push_sim/reset_to_plan')
@@ -56,6 +59,11 @@ class Client:
         self.poses.append(message)
         if self.answer is not None:
             self._commands.publish(self.answer(message))
+
+    def _on_health(self, array: DiagnosticArray) -> None:
+        for status in array.status:
+            if status.level == DiagnosticStatus.ERROR:
+                self.problems.append(status.message)
 
     def wait(self, finished: Callable[[], bool], timeout: float = PATIENCE) -> None:
         assert self._happens(finished, timeout)
@@ -69,6 +77,14 @@ class Client:
     def reset(self, seed: int = 5, tip: Sequence[float] = TIP) -> Reset.Response:
         request = Reset.Request(seed=seed, object_pose=OBJECT_POSE, tip_position=tip)
         return self._call(self._reset, request)
+
+    def speed(self) -> float:
+        """Of the tip [m/s], from its last two true positions."""
+        self.truths.clear()
+        self.wait(lambda: len(self.truths) >= 2)
+        before, after = self.truths[-2:]
+        time = to_nanoseconds(after.header.stamp) - to_nanoseconds(before.header.stamp)
+        return float(np.hypot(*np.subtract(after.tip, before.tip)) / max(time * 1e-9, 1e-3))
 
     def announce_plan(self, pose: Sequence[float], p_y: float) -> None:
         x, y, theta = ([value] for value in pose)
@@ -141,6 +157,23 @@ def test_realtime_poses_come_on_a_grid_of_10_ms_until_sigterm(client) -> None:
     process.send_signal(signal.SIGTERM)
     assert process.wait(timeout=PATIENCE) == 0
     assert 'Traceback' not in process.communicate()[1]
+    client.wait(lambda: client.node.count_publishers('object_pose') == 0)
+
+
+def test_a_second_source_of_commands_makes_the_driver_brake_and_is_named(client) -> None:
+    process = start_node('profile:=ideal')
+    assert client.reset().success
+    client.answer = lambda pose: command(pose.header.stamp, (0.02, 0.0))
+    client.wait(lambda: client.speed() > 0.015)
+    teleop = Node('teleop')
+    publisher = teleop.create_publisher(TwistStamped, 'pusher_velocity_cmd', COMMAND)
+    client.wait(lambda: client.speed() < 1e-6)
+    status = 'pusher_velocity_cmd has 2 publishers: /client, /teleop; the driver brakes'
+    client.wait(lambda: status in client.problems)
+    teleop.destroy_publisher(publisher)
+    client.wait(lambda: client.speed() > 0.015)
+    process.terminate()
+    assert status in process.communicate(timeout=PATIENCE)[1]
     client.wait(lambda: client.node.count_publishers('object_pose') == 0)
 
 

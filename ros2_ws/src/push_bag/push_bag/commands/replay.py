@@ -19,8 +19,17 @@ from push_bag.commands.recompute import (
     check_recompute_arguments,
     recompute,
 )
-from push_bag.file import BagReader, Record
-from push_bag.replay import Publishers, Survey, from_time, in_order, play, survey
+from push_bag.file import BagReader, Record, Topic
+from push_bag.replay import (
+    Publishers,
+    Survey,
+    check_graph,
+    from_time,
+    in_order,
+    is_command,
+    play,
+    survey,
+)
 
 DISCOVERY_TIME = 2.0  # [s] enough for the recorder, which looks for publishers once a second
 REPLAYING = {
@@ -30,6 +39,8 @@ REPLAYING = {
     'delay': DISCOVERY_TIME,
     'loop': False,
     'clock': False,
+    'with_commands': False,
+    'drive': False,
 }
 """Options of publishing, with their defaults."""
 MATCHING_TIMEOUT = 5.0  # [s] for discovered subscribers to be matched
@@ -40,6 +51,9 @@ examples:
   ros2 run push_bag replay runs/RUN --recompute
   ros2 run push_bag replay runs/RUN --ask
   ros2 run push_bag replay runs/RUN --recompute --param weights.contact:=100.0 --html overlay.html
+
+Commands are left out unless --with-commands is given. Where a node publishes the poses already, or
+would execute the commands, the replay refuses; --drive lets a plant execute them.
 
 --recompute publishes nothing: it gives the recorded poses to the controller and compares the
 computed commands with the recorded ones. Status 0 if they are equal bit for bit, 1 if not. With
@@ -76,6 +90,12 @@ def _parser() -> Parser:
     parser.add_argument(
         '--clock', action='store_true', help='also publish /clock, for nodes with use_sim_time'
     )
+    parser.add_argument(
+        '--with-commands', action='store_true', help='also publish the commands of the tip'
+    )
+    parser.add_argument(
+        '--drive', action='store_true', help='even if a plant executes them; it moves'
+    )
     add_recompute_arguments(parser)
     return parser
 
@@ -91,6 +111,8 @@ def _work(arguments: argparse.Namespace) -> int:
     for name in ('start', 'delay'):
         if not 0 <= getattr(arguments, name) < math.inf:
             raise InputError(f'--{name} must not be below 0, not {getattr(arguments, name):g}')
+    if arguments.drive and not arguments.with_commands:
+        raise InputError('--drive needs --with-commands')
     bag = survey(arguments.run, arguments.topics)
     if arguments.start > bag.seconds:
         raise InputError(f'--start {arguments.start:g} is after the end at {bag.seconds:.2f} s')
@@ -104,7 +126,9 @@ def _work(arguments: argparse.Namespace) -> int:
 
 
 def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
-    publishers = Publishers(node, bag.topics.values(), arguments.clock)
+    topics = _topics(bag, arguments)
+    check_graph(node, [topic.name for topic in topics], arguments.drive)
+    publishers = Publishers(node, topics, arguments.clock)
     _check_left_out(publishers, bag, arguments)
     time.sleep(arguments.delay)
     publishers.wait_until_matched(MATCHING_TIMEOUT)
@@ -115,6 +139,21 @@ def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
         count = play(records, publishers.publish, arguments.rate, bag.seconds - arguments.start)
         sys.stdout.write(f'{count} messages on {len(publishers.names)} topics replayed\n')
         sys.stdout.flush()
+
+
+def _topics(bag: Survey, arguments: argparse.Namespace) -> list[Topic]:
+    """The topics to publish: commands only where they are asked for.
+
+    Raises:
+        InputError: there is none left.
+    """
+    topics = list(bag.topics.values())
+    if arguments.with_commands:
+        return topics
+    others = [topic for topic in topics if not is_command(topic.name)]
+    if not others:
+        raise InputError('commands are published only with --with-commands')
+    return others
 
 
 def _check_left_out(publishers: Publishers, bag: Survey, arguments: argparse.Namespace) -> None:

@@ -1,5 +1,6 @@
 """Replay of a bag: publishing its messages, or recomputing its commands."""
 
+from push_bag.replay.live_graph import check_graph, is_command
 from push_bag.replay.playback import Publishers, from_time, in_order, play
 from push_bag.replay.recompute import Changes, Recomputed, recomputed
 from push_bag.replay.survey import Survey, survey
@@ -9,8 +10,10 @@ __all__ = [
     'Publishers',
     'Recomputed',
     'Survey',
+    'check_graph',
     'from_time',
     'in_order',
+    'is_command',
     'play',
     'recomputed',
     'survey',

@@ -15,6 +15,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 from tqdm import tqdm
 
+from push_bringup.graph.neighbours import check_alone, check_single
 from push_bringup.graph.processes import Processes
 from push_bringup.graph.starter import Starter
 
@@ -64,10 +65,13 @@ class Conductor:
         """Reason of an early stop of the controller, else an empty string.
 
         Raises:
-            RunError: the cell did not become ready, or a node ended.
+            RunError: another cell runs here, this one did not become ready, or a node ended.
             KeyboardInterrupt: a stop was requested.
         """
+        check_alone(self._node)
+        self._processes.start()
         self._wait(lambda: self._plan is not None, READY_TIMEOUT, 'no plan from mpc_node')
+        check_single(self._node)
         self._starter.start()
         return self._watch()
 

@@ -35,8 +35,7 @@ def run_graph(params: Path, namespace: str, logs: Path) -> str:
         Processes(params, namespace, logs) as processes,
     ):
         os.environ.setdefault(FAST_DDS_PROFILES, str(installed_config('fastdds.xml')))
-        processes.start()
-        # rclpy is slow to import: the nodes start meanwhile
+        # rclpy is slow to import, and other modes need none of it
         from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
 
         conductor = Conductor(namespace, processes)

@@ -250,7 +250,11 @@ class MpcNode(Node):  # type: ignore[misc]
         object_pose, tip = self._measured()
         start = self._controller.plan.state[0]
         fault = start_fault(self._settings.slider, start, object_pose, tip)
-        return f'{fault}; put it there, in simulation with {interface.RESET.name}' if fault else ''
+        return (
+            f'{fault}; put it there, in simulation with {interface.RESET_TO_PLAN.name}'
+            if fault
+            else ''
+        )
 
     def _warning(self) -> str:
         """What is wrong while the controller is not stopped, empty if nothing is."""

@@ -12,8 +12,10 @@ from push_node.diagnostics import Reporter
 from push_node.parameters import declared, override
 from push_node.publishers import PUBLISHERS, GraphPublishers
 from push_node.realtime import enter_realtime
+from push_node.sources import second_source
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -31,6 +33,7 @@ from push_sim.plant import Observation, Perturbation, PerturbationKind, Plant
 
 _SCENE_PERIOD = 0.05
 _HEALTH_PERIOD = 1.0
+_GRAPH_PERIOD = 0.1
 _PACES: dict[
     str, Callable[[Node, Plant, GraphPublishers, Callable[[Observation], None]], Pace]
 ] = {
@@ -50,6 +53,7 @@ class SimNode(Node):  # type: ignore[misc]
         self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
         self._plan: NominalTrajectory | None = None
+        self._conflict = ''
         self._outputs = PUBLISHERS[self._settings.mode](self)
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._outputs, self._publish)
@@ -61,6 +65,9 @@ class SimNode(Node):  # type: ignore[misc]
         interface.PERTURB.service(self, self._on_perturb)
         self.create_timer(_SCENE_PERIOD, self._publish_scene)
         self.create_timer(_HEALTH_PERIOD, self._report)
+        # simulated time stands still without commands
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(_GRAPH_PERIOD, self._watch_graph, clock=steady)
         profile, mode = self._settings.profile, self._settings.mode
         self.get_logger().info(f'{profile}, {mode}; {enter_realtime(mode)}')
 
@@ -99,7 +106,19 @@ class SimNode(Node):  # type: ignore[misc]
             happened = to_stamp(self._pace.stamp(applied.time))
             self._perturbation.publish(perturbation_message(applied, happened))
 
+    def _watch_graph(self) -> None:
+        conflict = second_source(self)
+        if conflict == self._conflict:
+            return
+        self._conflict = conflict
+        self._report()
+        if conflict:
+            self.get_logger().error(f'{conflict}; the driver brakes')
+
     def _on_command(self, message: TwistStamped) -> None:
+        # of two sources neither is right: without commands the driver brakes
+        if self._conflict:
+            return
         stamp = to_nanoseconds(message.header.stamp)
         self._pace.command(commanded_velocity(message), stamp)
 
@@ -158,7 +177,8 @@ class SimNode(Node):  # type: ignore[misc]
             'contact': str(self._plant.contact).lower(),
             'watchdog': 'holds' if self._plant.braking else 'fed',
         }
-        self._reporter.report(True, 'running', values)
+        message = f'{self._conflict}; the driver brakes' if self._conflict else 'running'
+        self._reporter.report(not self._conflict, message, values)
 
 
 def _perturbation(request: Perturb.Request) -> Perturbation:

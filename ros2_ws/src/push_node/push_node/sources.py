@@ -1,0 +1,34 @@
+"""The nodes that publish poses and commands, of which a cell has one each."""
+
+from rclpy.node import Node
+from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+from push_node.endpoints import GraphTopic
+from push_node.interface import OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD
+
+SINGLE_SOURCE = (OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD)
+"""Topics with one publisher in a cell."""
+
+
+def publisher_names(node: Node, topic: str) -> list[str]:
+    """Full names of the nodes that publish a topic, one for each publisher, sorted."""
+    return sorted(map(_full_name, node.get_publishers_info_by_topic(topic)))
+
+
+def subscriber_names(node: Node, topic: str) -> list[str]:
+    """Full names of the nodes that subscribe to a topic, sorted."""
+    return sorted(map(_full_name, node.get_subscriptions_info_by_topic(topic)))
+
+
+def second_source(node: Node) -> str:
+    """The first topic of poses or commands with two publishers, in words; empty without any."""
+    return next(filter(None, (_conflict(node, topic) for topic in SINGLE_SOURCE)), '')
+
+
+def _conflict(node: Node, topic: GraphTopic) -> str:
+    names = publisher_names(node, topic.name)
+    return f'{topic.name} has {len(names)} publishers: {", ".join(names)}' if names[1:] else ''
+
+
+def _full_name(endpoint: TopicEndpointInfo) -> str:
+    return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'
