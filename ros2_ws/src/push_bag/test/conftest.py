@@ -23,6 +23,7 @@ WALL_0 = 1_700_000_000_000_000_000
 ARMED_TICKS = 20
 LEAD_TICKS = 11  # in TRACKING before the reference starts
 DONE_TICKS = 10
+LEAD = 0.12  # [s] from an exposure to the instant that is predicted
 TRUTH = 'push_sim/ground_truth'
 FLUSH_TICKS = 25  # as the recorder does every 0.25 s
 EXTRA = ('perturbation', 'horizon', 'run_end', TRUTH)
@@ -59,6 +60,7 @@ class Synthetic:
     modes: object = None
     foreign: object = lambda tick: ()  # commands of another: stamp [ns] after the pose, v_x
     perturbed_at: float | None = None
+    predicted: object = lambda pose: pose  # of the pose that comes
     stop_reason: str = ''  # that the controller states at the end
     end_reason: str = ''  # that the cell states
     facts: dict = field(default_factory=dict)
@@ -173,6 +175,11 @@ class Recorder:
         state.tick, state.mode = tick + self.counted, self.synthetic.mode(tick)
         state.reference_time = time
         state.input = state.nominal_input = [0.08, 0.0]
+        then = min(max(time + LEAD, 0.0), self.synthetic.duration)
+        planned = self.synthetic.path(then)
+        state.reference = [*planned, 0.0]
+        state.predicted = [*self.synthetic.predicted(self.synthetic.displaced(planned, then)), 0.0]
+        state.disturbance = [0.01, -0.02, 0.3]
         state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
         state.solver_status, state.limited = 1, self.synthetic.limited(tick)
         if tick == self.synthetic.ticks - 1:

@@ -70,7 +70,7 @@ def test_a_figure_far_below_is_drawn_when_one_comes_to_it(page) -> None:
 
 def test_all_figures_are_drawn_for_print(page) -> None:
     page.evaluate('window.dispatchEvent(new Event("beforeprint"))')
-    assert page.locator('#timing .barlayer .point').count() > 0
+    assert page.locator('#timing-1 .barlayer .point').count() > 0
 
 
 def test_the_animation_plays_and_pauses(page) -> None:
@@ -132,3 +132,16 @@ def test_moving_the_slider_moves_the_square(page) -> None:
     page.locator('#cursor').dispatch_event('input')
     end = page.evaluate('[cursor, ANIMATION.duration]')
     assert end[0] == pytest.approx(end[1], abs=0.011)
+
+
+def test_on_a_phone_nothing_is_wider_than_the_window(page) -> None:
+    phone = page.context.browser.new_page(viewport={'width': 390, 'height': 844})
+    phone.goto(page.url)
+    phone.wait_for_function('document.querySelector("#lap .scatterlayer path") !== null')
+    assert phone.evaluate('document.documentElement.scrollWidth') == 390
+    bar, plot = (
+        phone.locator(f'#lap {part}').first.bounding_box() for part in ('.cbfills', '.nsewdrag')
+    )
+    assert plot['width'] > 250
+    assert bar['y'] > plot['y'] + plot['height']
+    phone.close()

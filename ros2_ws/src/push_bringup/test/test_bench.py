@@ -27,12 +27,12 @@ from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
-LAP = Lap(True, '', 1.5, 4.0, 1.4, 3.0, ((0.0, 1.0), (2.0, 3.0)))
+LAP = Lap(True, '', 1.5, 4.0, 1.4, 3.0, ((0.0, 1.0), (2.0, 3.0)), (1.0, 4.0))
 
 
 def with_error(millimetres: float, completed: bool = True) -> Lap:
     reason = '' if completed else 'left the face'
-    return Lap(completed, reason, millimetres, millimetres, 0.5 * millimetres, 3.0, ())
+    return Lap(completed, reason, millimetres, millimetres, 0.5 * millimetres, 3.0, (), ())
 
 
 def test_a_lap_is_judged_by_its_error_and_its_end() -> None:

@@ -19,6 +19,11 @@ def deferred(figure: go.Figure, name: str) -> str:
     )
 
 
+def is_figure(html: str) -> bool:
+    """Whether HTML holds a figure that is to be drawn."""
+    return 'class="figure"' in html
+
+
 def drawing_library() -> str:
     """The part of plotly.js that such figures need."""
     return files('push_report').joinpath(LIBRARY).read_text(encoding='utf-8')

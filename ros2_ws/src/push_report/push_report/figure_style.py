@@ -12,6 +12,10 @@ PURPLE, SKY = '#cc79a7', '#56b4e9'
 RUN_COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY)  # of runs that share a figure
 INK, GREY, PALE, FAINT = '#1f2933', '#8a94a0', '#c3cad1', '#e4e8ec'
 LOW_TO_HIGH = ((0.0, '#2b6cb0'), (0.5, '#b569a8'), (1.0, '#d7301f'))
+DIVERGING = ((0.0, '#2b6cb0'), (0.5, '#e8e8e8'), (1.0, '#d7301f'))
+HEIGHT = 420
+MOST_MARKERS = 1500  # a marker takes as long to draw as ten points of a line
+ROBUST = 5.0  # medians at which a robust scale ends
 MOST_POINTS = 5000  # of one series; keeps a run of any length below 6 MB
 
 FONT = {'family': 'system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif', 'size': 13}
@@ -40,6 +44,17 @@ def styled(figure: go.Figure, height: int, **layout: Any) -> go.Figure:
     figure.update_xaxes(**AXIS)
     figure.update_yaxes(**AXIS)
     return figure.update_layout(**layout)
+
+
+def robust_limit(values: NDArray[Any], least: float) -> float:
+    """The end of a scale for values (n,) >= 0 on which a few large ones do not flatten the rest.
+
+    That is the largest value, at most ROBUST times the median, and at least `least`.
+    """
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return least
+    return max(least, min(float(known.max()), ROBUST * float(np.median(known))))
 
 
 def thinned(*series: NDArray[Any], most: int = MOST_POINTS) -> tuple[NDArray[np.float32], ...]:

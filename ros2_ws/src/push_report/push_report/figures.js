@@ -6,9 +6,30 @@ const NEAR = '50% 0px'; // half a window ahead
 
 const places = document.querySelectorAll('.figure');
 
+const NARROW = 600; // [px] of the window; below it a figure is laid out for a phone
+
+// A colour bar goes below the plot, margins and letters get small, a map no higher than wide.
+function narrowed({ data, layout }, width) {
+  const below = { orientation: 'h', x: 0.5, xanchor: 'center', y: -0.2, yanchor: 'top', len: 1 };
+  for (const { marker } of data) {
+    if (!marker || !marker.colorbar) continue;
+    const title = { ...marker.colorbar.title, side: 'bottom' };
+    Object.assign(marker.colorbar, below, { thickness: 12, title });
+    layout.margin.b = 110;
+  }
+  layout.font.size = 11;
+  Object.assign(layout.margin, { l: 48, r: 10 });
+  const isMap = Object.values(layout).some((axis) => axis && axis.scaleanchor);
+  if (isMap) layout.height = Math.min(layout.height, width + 190);
+}
+
 function drawFigure(place) {
   if (place.data) return;
   const { data, layout } = JSON.parse(document.getElementById(`${place.id}-figure`).textContent);
+  if (window.innerWidth < NARROW) {
+    narrowed({ data, layout }, place.clientWidth);
+    place.style.height = `${layout.height}px`;
+  }
   Plotly.newPlot(place, data, layout, CONFIG);
   place.dispatchEvent(new Event('drawn'));
 }

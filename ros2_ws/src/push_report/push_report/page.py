@@ -9,64 +9,79 @@ from importlib.resources import files
 from pathlib import Path
 
 import plotly.graph_objects as go
-from plotly.offline import get_plotlyjs
 from push_core.common import write_atomically
 
-COLOURS = ('#3366aa', '#bb5533', '#448844')
-DIVERGING = 'RdBu'
-HEIGHT = 420
+from push_report.deferred_figure import deferred, drawing_library, drawing_script, is_figure
+from push_report.figure_style import HEIGHT, styled
 
 
-def page(
-    title: str, sections: Sequence[str], head: str = '', script: str = '', library: str = ''
-) -> str:
-    """HTML of a page.
+def page(title: str, sections: Sequence[str], head: str = '', script: str = '') -> str:
+    """HTML of a page; with the drawing library if a section holds a figure.
 
     Args:
         title: of the page.
-        sections: HTML of each, see `section`; figures without the drawing library.
+        sections: HTML of each, see `section`.
         head: HTML above the sections; default: the title.
         script: JavaScript that runs after the page has loaded.
-        library: JavaScript that draws the figures; default: all of plotly.js.
     """
     style = files('push_report').joinpath('page.css').read_text(encoding='utf-8')
     above = head or f'<h1>{escape(title)}</h1>'
+    draws = any(map(is_figure, sections))
+    library = f'<script>{drawing_library()}</script>' if draws else ''
+    drawing = f'{drawing_script()}\n' if draws else ''
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f'<title>{escape(title)}</title><style>{style}</style>'
-        f'<script>{library or get_plotlyjs()}</script></head>\n<body>{above}{"".join(sections)}'
-        f'<script>{script}</script></body></html>\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f'<title>{escape(title)}</title><style>{style}</style>{library}</head>\n'
+        f'<body>{above}{"".join(sections)}<script>{drawing}{script}</script></body></html>\n'
     )
 
 
-def section(heading: str, content: str) -> str:
-    """HTML of a section: a heading, unless it is empty, and HTML content."""
+def section(heading: str, content: str, text: str = '') -> str:
+    """HTML of a section: a heading, unless it is empty, a text that explains, HTML content."""
     above = f'<h2>{escape(heading)}</h2>' if heading else ''
-    return f'<section>{above}{content}</section>\n'
+    explanation = f'<p class="hint">{escape(text)}</p>' if text else ''
+    return f'<section>{above}{explanation}{content}</section>\n'
 
 
-def drawn(figure: go.Figure, name: str | None = None) -> str:
-    """HTML of a figure, for a section; `name` becomes the id of its element."""
-    config = {'displaylogo': False, 'responsive': True}
-    return str(figure.to_html(config=config, include_plotlyjs=False, full_html=False, div_id=name))
+def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """HTML of a table of text cells, which scrolls sideways where it is wider than the page."""
+    head = ''.join(f'<th>{escape(each)}</th>' for each in heads)
+    body = ''.join(
+        f'<tr>{"".join(f"<td>{escape(cell)}</td>" for cell in row)}</tr>' for row in rows
+    )
+    return f'<div class="wide"><table class="columns"><tr>{head}</tr>{body}</table></div>'
 
 
-def write_page(path: Path, title: str, lines: Sequence[str], figures: Sequence[go.Figure]) -> None:
-    """Writes a plain page atomically.
+def panels(figures: Sequence[go.Figure], name: str) -> str:
+    """HTML of figures side by side, one below the other where the window is narrow."""
+    parts = (deferred(each, f'{name}-{number}') for number, each in enumerate(figures, start=1))
+    return f'<div class="panels">{"".join(parts)}</div>'
+
+
+def write_page(
+    path: Path,
+    title: str,
+    lines: Sequence[str],
+    parts: Sequence[tuple[str, Sequence[go.Figure]]],
+    text: str = '',
+) -> None:
+    """Writes a page atomically: its text, then a section of figures for each part.
 
     Args:
         path: of the HTML file.
         title: of the page.
-        lines: text above the figures.
-        figures: from top to bottom.
+        lines: preformatted text above the figures.
+        parts: heading and figures of each section.
+        text: explains the page, below the title.
 
     Raises:
         InputError: the file cannot be written.
     """
     words = escape('\n'.join(lines))
-    sections = [section('', f'<pre>{words}</pre>')]
-    for figure in figures:
-        height = figure.layout.height or HEIGHT
-        figure.update_layout(template='simple_white', height=height, margin={'t': 80, 'b': 50})
-        sections.append(section('', drawn(figure)))
+    sections = [section('', f'<pre>{words}</pre>', text)]
+    for number, (heading, figures) in enumerate(parts, start=1):
+        for figure in figures:
+            styled(figure, figure.layout.height or HEIGHT)
+        sections.append(section(heading, panels(figures, f'figure-{number}')))
     write_atomically(path, page(title, sections).encode())

@@ -73,7 +73,7 @@ def test_table_and_page_show_every_part_and_say_what_is_missing(
     assert main(['--data', str(tmp_path), '--jobs', '1', '--html', str(page)]) == 0
     shown = capsys.readouterr().out
     assert 'src="http' not in page.read_text()
-    assert page.read_text().count('class="plotly-graph-div"') == 1
+    assert page.read_text().count('class="figure"') == 3
     assert 'weave.csv' in shown
     assert 'dead time 71.3 ms, lag 33.4 ms' in shown
     assert 'no short pushes: there is no square_4mm_pushes*.csv' in shown

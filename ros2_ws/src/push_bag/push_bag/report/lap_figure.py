@@ -7,7 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 import plotly.graph_objects as go
-from push_report.figure_style import GREY, INK, LOW_TO_HIGH, PALE, RED, styled, thinned
+from push_report.figure_style import (
+    GREY,
+    INK,
+    LOW_TO_HIGH,
+    MOST_MARKERS,
+    PALE,
+    RED,
+    ROBUST,
+    robust_limit,
+    styled,
+    thinned,
+)
 
 from push_bag.report.reported_run import ReportedRun
 from push_bag.run import Floats, PerturbationEvent, Reference
@@ -16,7 +27,10 @@ from push_bag.score import Tracking
 OUTLINES = 16
 LEAST_COLOUR_RANGE = 0.5  # [mm]; with less, a good lap would show its noise
 HEIGHT = 720
-MOST_MARKERS = 1500  # a marker takes as long to draw as ten points of a line
+TEXT = (
+    f'Colours end at {ROBUST:g} medians of the tracking error; where it is larger, as after a '
+    'perturbation, the path has the last colour.'
+)
 
 
 def lap_figure(runs: Sequence[ReportedRun]) -> go.Figure:
@@ -89,7 +103,7 @@ def _path(tracking: Tracking) -> go.Scatter:
             'size': 5,
             'color': error,
             'cmin': 0.0,
-            'cmax': max(float(error.max(initial=0.0)), LEAST_COLOUR_RANGE),
+            'cmax': robust_limit(error, LEAST_COLOUR_RANGE),
             'colorscale': LOW_TO_HIGH,
             'colorbar': {'title': {'text': 'tracking error [mm]', 'side': 'right'}, 'len': 0.8},
         },

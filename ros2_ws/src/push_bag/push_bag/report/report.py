@@ -7,14 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from push_core.common import json_text, write_atomically
-from push_report.deferred_figure import deferred, drawing_library, drawing_script
-from push_report.page import page, section
+from push_report.deferred_figure import deferred
+from push_report.page import page, panels, section
 
 from push_bag.report.animation import animation_data, animation_figure
+from push_bag.report.lap_figure import TEXT as LAP_TEXT
 from push_bag.report.lap_figure import lap_figure
 from push_bag.report.reported_run import ReportedRun, Scored, reported_runs, title
+from push_bag.report.time_figure import TEXT as TIME_TEXT
 from push_bag.report.time_figure import time_figure
-from push_bag.report.timing_figure import timing_figure
+from push_bag.report.timing_figure import timing_figures
 from push_bag.run import read_starts
 from push_bag.score import bag_score, messages_line, score_rows, score_series
 
@@ -60,22 +62,22 @@ def report_html(scored: Sequence[Scored]) -> str:
     """
     runs = reported_runs(scored)
     sections = [
-        section('The lap', deferred(lap_figure(runs), 'lap')),
+        section('The lap', deferred(lap_figure(runs), 'lap'), LAP_TEXT if len(runs) == 1 else ''),
         section('In motion', CONTROLS + deferred(animation_figure(runs), 'animation')),
-        section('Over time', deferred(time_figure(runs), 'time')),
-        section('Timing', deferred(timing_figure(runs), 'timing')),
+        section('Over time', deferred(time_figure(runs), 'time'), TIME_TEXT),
+        section('Timing', panels(timing_figures(runs), 'timing')),
         section('Score', _table(_names(runs), _score_rows(runs))),
         section('Messages', _table(_names(runs), _message_rows(runs))),
         section('Run facts', _table(_names(runs), _fact_rows(runs))),
     ]
     head = _head_of_one(runs[0]) if len(runs) == 1 else _head_of_several(runs)
     page_title = title(runs[0].score) if len(runs) == 1 else f'{len(runs)} runs'
-    return page(page_title, sections, head, _script(runs), drawing_library())
+    return page(page_title, sections, head, _script(runs))
 
 
 def _script(runs: Sequence[ReportedRun]) -> str:
     script = files('push_bag.report').joinpath('report.js').read_text(encoding='utf-8')
-    return f'const ANIMATION = {animation_data(runs)};\n{drawing_script()}\n{script}'
+    return f'const ANIMATION = {animation_data(runs)};\n{script}'
 
 
 def _head_of_one(run: ReportedRun) -> str:

@@ -38,8 +38,11 @@ STATE_FIELDS = (
     'state',
     'input',
     'nominal_input',
+    'predicted',
+    'reference',
     *SOLVER_FIELDS,
 )
+OPTIONAL_STATE_FIELDS = {'disturbance': 3}
 
 
 def stamps(columns: Columns) -> NDArray[np.int64]:
@@ -85,10 +88,11 @@ def velocities(columns: Columns) -> Floats:
 
 
 def ticks(columns: Columns) -> Floats:
-    """Controller states (n, 13) with the columns STATE_COLUMNS."""
+    """Controller states (n, 20) with the columns STATE_COLUMNS."""
     parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
     parts += [columns['input'], columns['nominal_input']]
     parts += [columns[name] for name in SOLVER_FIELDS]
+    parts += [columns['predicted'][:, :2], columns['reference'][:, :2], columns['disturbance']]
     return np.column_stack(parts).astype(np.float64)
 
 

@@ -12,6 +12,7 @@ from push_node.endpoints import GraphTopic, short_name
 
 from push_bag.file import BagReader, Columns, Record, Traffic, TrafficLog, counted
 from push_bag.run.conversions import (
+    OPTIONAL_STATE_FIELDS,
     ORIENTED_POSE_FIELDS,
     POSE_FIELDS,
     STATE_FIELDS,
@@ -59,7 +60,9 @@ class RunRows:
             interface.PUSHER_POSE.short_name: TopicTable(POSE_FIELDS, 2, positions),
             interface.GROUND_TRUTH.short_name: TopicTable(TRUTH_FIELDS, 3, true_poses),
             COMMAND: TopicTable(TWIST_FIELDS, 2, velocities),
-            STATE: TopicTable(STATE_FIELDS, len(STATE_COLUMNS), self._states),
+            STATE: TopicTable(
+                STATE_FIELDS, len(STATE_COLUMNS), self._states, OPTIONAL_STATE_FIELDS
+            ),
         }
         self._rare: dict[str, list[Record]] = {name: [] for name in RARE}
         self._topics: dict[str, tuple[TrafficLog, Callable[[Record], None] | None]] = {}

@@ -118,6 +118,13 @@ STATE_COLUMNS = (
     'solver_status',
     'limited',
     'tick',
+    'predicted_x',
+    'predicted_y',
+    'predicted_reference_x',
+    'predicted_reference_y',
+    'disturbance_x',
+    'disturbance_y',
+    'disturbance_theta',
 )
 
 

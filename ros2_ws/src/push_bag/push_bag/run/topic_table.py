@@ -1,7 +1,8 @@
 """The messages of one topic as a table that grows record by record."""
 
 from array import array
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from push_bag.file import Columns, Leaf, Record, Topic, columns, leaves, schema_
 from push_bag.run.conversions import stamps
 from push_bag.run.series import NEVER, Floats, Stamped
 
+NONE: Mapping[str, int] = MappingProxyType({})
 BATCH = 4096  # messages decoded at once; bounds the memory
 
 
@@ -18,7 +20,11 @@ class TopicTable:
     """Collects the messages of a topic and decodes them in batches."""
 
     def __init__(
-        self, fields: Collection[str], width: int, values: Callable[[Columns], Floats]
+        self,
+        fields: Collection[str],
+        width: int,
+        values: Callable[[Columns], Floats],
+        optional: Mapping[str, int] = NONE,
     ) -> None:
         """Starts empty.
 
@@ -26,9 +32,13 @@ class TopicTable:
             fields: to decode, including those of the stamp.
             width: number k of values per message.
             values: converts the decoded fields to rows (n, k).
+            optional: number of values of each further field that is NaN where the type of the
+                bag, of an earlier version, lacks it.
         """
         self._fields = fields
         self._values = values
+        self._optional = optional
+        self._decoded = {*fields, *optional}
         self._blocks = [_no_rows(width)]
         self._topic: Topic | None = None
         self._layout: list[Leaf] = []
@@ -95,15 +105,18 @@ class TopicTable:
         missing = [name for name in self._fields if name not in known]
         if missing:
             raise InputError(f'{topic.name} is a {topic.type_name}, which has no {missing[0]}')
+        self._decoded = {*self._fields, *(self._optional.keys() & known)}
 
     def _decode(self) -> None:
         if self._topic is None or not self._messages:
             return
         try:
-            fields = columns(self._messages, self._layout, self._fields)
+            fields = columns(self._messages, self._layout, self._decoded)
         except ValueError as error:
             kind = self._topic.type_name
             raise InputError(f'a message on {self._topic.name} is not a {kind}: {error}') from None
+        for name in self._optional.keys() - self._decoded:
+            fields[name] = np.full((len(self._messages), self._optional[name]), np.nan)
         published = np.array(self._published, np.uint64).astype(np.int64)
         self._blocks.append(Stamped(stamps(fields), published, self._values(fields)))
         self._messages, self._published = [], []

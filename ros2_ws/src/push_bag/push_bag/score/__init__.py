@@ -8,7 +8,12 @@ from push_bag.score.score import bag_score, score_run, score_series
 from push_bag.score.score_table import messages_line, score_rows, score_table
 from push_bag.score.tick_table import TickTable, tick_table
 from push_bag.score.timing import DEADLINE, LoopTiming, timing
-from push_bag.score.tracking import Tracking, reference_times, tracking_errors
+from push_bag.score.tracking import (
+    Tracking,
+    during_tracking,
+    reference_times,
+    tracking_errors,
+)
 
 __all__ = [
     'DEADLINE',
@@ -23,6 +28,7 @@ __all__ = [
     'check_bounds',
     'comparison_table',
     'contact',
+    'during_tracking',
     'loss_intervals',
     'messages_line',
     'reference_times',

@@ -4,13 +4,22 @@ from collections.abc import Sequence
 
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
+from push_report.deferred_figure import deferred
 from push_report.figure_style import INK, RUN_COLOURS, styled
-from push_report.page import drawn, page, section
+from push_report.page import page, section
 
 from push_bringup.bench.rows import SizeRow
 from push_bringup.experiment import Lap
 
 HEIGHT = 760
+TEXT = (
+    'Mean tracking error of the laps that were completed, and the share of laps that were, over '
+    'the number of pushes that the model was trained on. Points are medians over training sets '
+    'drawn at random, bars reach from the lower to the upper quartile. "random" draws pushes '
+    'from a large set; "die" is the smallest set of the paper, five pushes in the pattern of '
+    'the five of a die: one at the middle of the face along its normal, four half-way to its '
+    'ends, 30 degrees to either side.'
+)
 
 
 def training_size_page(rows: Sequence[SizeRow], analytical: Lap) -> str:
@@ -29,7 +38,8 @@ def training_size_page(rows: Sequence[SizeRow], analytical: Lap) -> str:
     figure.update_xaxes(type='log', row=1, col=1)
     figure.update_yaxes(title='mean tracking error [mm]', rangemode='tozero', row=1, col=1)
     figure.update_yaxes(title='completed laps [%]', range=[-5, 105], row=2, col=1)
-    return page('Error over training size', [section('8-track at 80 mm/s', drawn(figure))])
+    shown = section('8-track at 80 mm/s', deferred(figure, 'sizes'), TEXT)
+    return page('Error over training size', [shown])
 
 
 def _draw(figure: go.Figure, rows: Sequence[SizeRow], name: str, colour: str) -> None:

@@ -36,6 +36,7 @@ class Lap:
         truth_mean_mm: mean tracking error of the true poses.
         command_step_mm_s: change of the commanded velocity from tick to tick, rms.
         path_mm: positions [x, y] of the object's centre, at most PATH_POINTS.
+        error_mm: tracking errors at these positions.
     """
 
     completed: bool
@@ -45,12 +46,13 @@ class Lap:
     truth_mean_mm: float
     command_step_mm_s: float
     path_mm: tuple[tuple[float, float], ...]
+    error_mm: tuple[float, ...]
 
     @classmethod
     def from_json(cls, values: Mapping[str, Any]) -> 'Lap':
         """The lap from the JSON of its `asdict`."""
         path = tuple((x, y) for x, y in values['path_mm'])
-        return cls(**{**values, 'path_mm': path})
+        return cls(**{**values, 'path_mm': path, 'error_mm': tuple(values['error_mm'])})
 
 
 def pushed(job: LapJob) -> Lap:
@@ -96,7 +98,7 @@ class _LapRecorder:
     def lap(self, reason: str, side: float) -> Lap:
         """The lap, with why it stopped and the side of the square [m]."""
         if self._last is None or self._last.state is None:
-            return Lap(False, reason or 'never tracked', math.inf, math.inf, math.inf, 0.0, ())
+            return Lap(False, reason or 'never tracked', math.inf, math.inf, math.inf, 0.0, (), ())
         completed = is_completed(
             arrived=not reason,
             distance=1e-3 * self._errors[-1],
@@ -113,6 +115,7 @@ class _LapRecorder:
             truth_mean_mm=fmean(self._truth_errors),
             command_step_mm_s=self._command_step(),
             path_mm=tuple(self._path[::step]),
+            error_mm=tuple(round(each, 3) for each in self._errors[::step]),
         )
 
     def _command_step(self) -> float:

@@ -5,10 +5,16 @@ from pathlib import Path
 
 import numpy as np
 import plotly.graph_objects as go
-from push_report.page import COLOURS, write_page
+from push_report.figure_style import BLUE, GREEN, RED
+from push_report.page import write_page
 
 from push_gp.evaluation.curve import LIMIT_SURFACE, METHODS, CurvePoint
 
+COLOURS = (BLUE, RED, GREEN)
+TEXT = (
+    'Models are trained on more and more of the pushes and judged on those held out, by the '
+    'mean squared error as a share of the variance (NMSE) in the push frame.'
+)
 NAMES = {
     'zero': 'GP, zero mean',
     'analytical': 'GP over the fitted motion cone',
@@ -27,7 +33,8 @@ def write_curve_page(path: Path, points: Sequence[CurvePoint], lines: Sequence[s
     Raises:
         InputError: the file cannot be written.
     """
-    write_page(path, 'Learning curve', lines, [curve_figure(points)])
+    parts = [('Median and quartiles over the seeds', [curve_figure(points)])]
+    write_page(path, 'Learning curve', lines, parts, TEXT)
 
 
 def curve_figure(points: Sequence[CurvePoint]) -> go.Figure:
@@ -42,5 +49,4 @@ def curve_figure(points: Sequence[CurvePoint]) -> go.Figure:
             x=sizes, y=median, error_y=spread, name=NAMES[method], line={'color': colour}
         )
     figure.update_xaxes(title_text='training pushes', type='log')
-    figure.update_yaxes(title_text='mean NMSE, push frame', type='log')
-    return figure.update_layout(title_text='Median and quartiles over the seeds')
+    return figure.update_yaxes(title_text='mean NMSE, push frame', type='log')

@@ -7,15 +7,22 @@ from statistics import NormalDist
 
 import numpy as np
 import plotly.graph_objects as go
-from plotly.subplots import make_subplots
 from push_core.data import OUTPUTS, READABLE, PushSet
 from push_core.geometry import Array
-from push_report.page import COLOURS, DIVERGING, write_page
+from push_report.figure_style import BLUE, DIVERGING, GREEN, INK, MOST_MARKERS, RED, thinned
+from push_report.page import write_page
 
 from push_gp.evaluation.summary import UNITS
 from push_gp.models import GpModel, PushModel
 
 LEVELS = np.linspace(0.05, 0.99, 48)
+COLOURS = (BLUE, RED, GREEN)
+TEXT = (
+    'The model predicts pushes that it was not trained on. Displacements are in the body frame '
+    f'at the start of a push. At most {MOST_MARKERS} pushes are drawn, evenly chosen; the '
+    'numbers are of all. Colours end at the 98 % quantile of the error; larger ones have the '
+    'last colour.'
+)
 TITLES = [f'{name} [{unit}]' for name, unit in zip(OUTPUTS, UNITS, strict=True)]
 
 
@@ -34,40 +41,51 @@ def write_evaluation_page(
         InputError: the file cannot be written.
     """
     predicted, _ = model.evaluate(pushes.p_y, pushes.beta)
-    figures = [_against(predicted, pushes), _over_inputs(predicted, pushes)]
+    parts: list[tuple[str, Sequence[go.Figure]]] = [
+        ('Predicted against measured', _against(predicted, pushes)),
+        ('Measured minus predicted, by contact offset and direction', _errors(predicted, pushes)),
+    ]
     if isinstance(model, GpModel):
-        figures.append(_calibration(model, predicted, pushes))
-    write_page(path, f'Model {model.info.model_id} on {len(pushes)} pushes', lines, figures)
+        half = 1.96 * math.sqrt(0.95 * 0.05 / len(pushes))
+        heading = f'Calibration (sampling error at 95 %: ±{100 * half:.1f} %)'
+        parts.append((heading, [_calibration(model, predicted, pushes)]))
+    write_page(path, f'Model {model.info.model_id} on {len(pushes)} pushes', lines, parts, TEXT)
 
 
-def _against(predicted: Array, pushes: PushSet) -> go.Figure:
-    figure = make_subplots(1, 3, subplot_titles=TITLES)
-    for column in range(3):
-        measured = pushes.displacement[:, column] / READABLE[column]
-        expected = predicted[:, column] / READABLE[column]
-        ends = [measured.min(), measured.max()]
-        dots = {'size': 3, 'color': COLOURS[column]}
-        line = {'color': 'black', 'width': 1}
-        figure.add_scatter(
-            x=measured, y=expected, mode='markers', marker=dots, row=1, col=column + 1
+def _against(predicted: Array, pushes: PushSet) -> list[go.Figure]:
+    """A figure of each output: a dot for each push, on the line where the model is right."""
+    figures = []
+    for column, title in enumerate(TITLES):
+        measured, expected = thinned(
+            pushes.displacement[:, column] / READABLE[column],
+            predicted[:, column] / READABLE[column],
+            most=MOST_MARKERS,
         )
-        figure.add_scatter(x=ends, y=ends, mode='lines', line=line, row=1, col=column + 1)
-    figure.update_xaxes(title_text='measured').update_yaxes(title_text='predicted', col=1)
-    return figure.update_layout(title_text='Predicted against measured', showlegend=False)
+        ends = [float(measured.min()), float(measured.max())]
+        dots = {'size': 3, 'color': COLOURS[column]}
+        figure = go.Figure()
+        figure.add_scatter(x=measured, y=expected, mode='markers', marker=dots)
+        figure.add_scatter(x=ends, y=ends, mode='lines', line={'color': INK, 'width': 1})
+        figure.update_layout(showlegend=False)
+        figure.update_xaxes(title=f'measured {title}')
+        figures.append(figure.update_yaxes(title=f'predicted {title}'))
+    return figures
 
 
-def _over_inputs(predicted: Array, pushes: PushSet) -> go.Figure:
-    figure = make_subplots(1, 3, subplot_titles=TITLES, horizontal_spacing=0.1)
-    for column in range(3):
+def _errors(predicted: Array, pushes: PushSet) -> list[go.Figure]:
+    """A figure of each output: the error as colour over the inputs."""
+    figures = []
+    for column, title in enumerate(TITLES):
         error = (pushes.displacement - predicted)[:, column] / READABLE[column]
         reach = float(np.quantile(np.abs(error), 0.98))
-        bar = {'x': 0.27 + 0.367 * column, 'len': 0.9, 'thickness': 10}
-        dots = {'size': 4, 'color': error, 'colorscale': DIVERGING, 'cmid': 0.0}
-        dots |= {'cmin': -reach, 'cmax': reach, 'colorbar': bar}
-        x, y = 1e3 * pushes.p_y, np.degrees(pushes.beta)
-        figure.add_scatter(x=x, y=y, mode='markers', marker=dots, row=1, col=column + 1)
-    figure.update_xaxes(title_text='p_y [mm]').update_yaxes(title_text='beta [deg]', col=1)
-    return figure.update_layout(title_text='Measured minus predicted', showlegend=False)
+        x, y, error = thinned(1e3 * pushes.p_y, np.degrees(pushes.beta), error, most=MOST_MARKERS)
+        bar = {'thickness': 10, 'title': {'text': f'error {title}', 'side': 'right'}}
+        dots = {'size': 4, 'color': error, 'colorscale': DIVERGING, 'colorbar': bar}
+        dots |= {'cmin': -reach, 'cmax': reach}
+        figure = go.Figure().add_scatter(x=x, y=y, mode='markers', marker=dots)
+        figure.update_xaxes(title='p_y [mm]')
+        figures.append(figure.update_yaxes(title='beta [deg]'))
+    return figures
 
 
 def _calibration(model: GpModel, predicted: Array, pushes: PushSet) -> go.Figure:
@@ -76,15 +94,12 @@ def _calibration(model: GpModel, predicted: Array, pushes: PushSet) -> go.Figure
     deviations = np.abs(pushes.displacement - predicted) / spread
     reach = np.array([NormalDist().inv_cdf(0.5 + level / 2.0) for level in LEVELS])
     figure = go.Figure()
-    figure.add_scatter(x=[0, 1], y=[0, 1], mode='lines', line={'color': 'black'}, name='ideal')
+    figure.add_scatter(x=[0, 1], y=[0, 1], mode='lines', line={'color': INK}, name='ideal')
     for column, name in enumerate(OUTPUTS):
         shares = np.mean(deviations[:, column] <= reach[:, None], axis=1)
         line = {'color': COLOURS[column]}
         figure.add_scatter(x=LEVELS, y=shares, mode='lines', line=line, name=name)
         own = float(np.mean(deviations[:, column] <= model.interval_95[column]))
         figure.add_scatter(x=[0.95], y=[own], mode='markers', marker=line, showlegend=False)
-    figure.update_xaxes(title_text='level of the interval, normal errors')
-    figure.update_yaxes(title_text='share of pushes in the interval')
-    half = 1.96 * math.sqrt(0.95 * 0.05 / len(pushes))
-    title = f'Calibration (sampling error at 95 %: ±{100 * half:.1f} %)'
-    return figure.update_layout(title_text=title)
+    figure.update_xaxes(title='level of the interval, normal errors')
+    return figure.update_yaxes(title='share of pushes in the interval')

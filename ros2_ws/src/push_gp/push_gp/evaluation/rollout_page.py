@@ -4,11 +4,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from plotly.subplots import make_subplots
-from push_report.page import COLOURS, write_page
+import plotly.graph_objects as go
+from push_report.figure_style import BLUE, RED
+from push_report.page import write_page
 
 from push_gp.evaluation.evaluation import RolloutEvaluation
 
+BINS = 40
+TEXT = (
+    'The model is applied step by step along each long push, from its measured start; the '
+    'errors are those of the pose at its end. Pushes whose tip leaves the face are a group of '
+    'their own.'
+)
 SHOWN = (('position', 'position [mm]', 1e3), ('heading', 'heading [deg]', 180.0 / np.pi))
 
 
@@ -23,19 +30,19 @@ def write_rollout_page(path: Path, result: RolloutEvaluation, lines: Sequence[st
     Raises:
         InputError: the file cannot be written.
     """
-    figure = make_subplots(1, 2, subplot_titles=[title for _, title, _ in SHOWN])
     groups = (('on the face', result.pushes.on_face), ('off it', ~result.pushes.on_face))
-    for column, (kind, _, scale) in enumerate(SHOWN, start=1):
+    figures = []
+    for kind, title, scale in SHOWN:
         errors = scale * getattr(result.errors, kind)
-        for colour, (name, chosen) in zip(COLOURS, groups, strict=False):
-            figure.add_histogram(
-                x=errors[chosen],
-                name=name,
-                marker={'color': colour},
-                showlegend=column == 1,
-                row=1,
-                col=column,
+        edges = np.histogram_bin_edges(errors, BINS)
+        figure = go.Figure()
+        for colour, (name, chosen) in zip((BLUE, RED), groups, strict=True):
+            count, _ = np.histogram(errors[chosen], edges)
+            figure.add_bar(
+                x=(edges[:-1] + edges[1:]) / 2.0, y=count, name=name, marker={'color': colour}
             )
-    figure.update_layout(title_text='Errors at the end of each push', barmode='stack')
+        figure.update_layout(barmode='stack', bargap=0.05)
+        figure.update_xaxes(title=title)
+        figures.append(figure.update_yaxes(title='pushes'))
     title = f'Model {result.model_id} rolled out along {len(result.pushes)} pushes'
-    write_page(path, title, lines, [figure])
+    write_page(path, title, lines, [('Errors at the end of each push', figures)], TEXT)

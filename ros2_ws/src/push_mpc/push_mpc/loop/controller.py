@@ -177,6 +177,7 @@ class Controller:
         tick.reference_time = reference_time
         tick.state = self._state(object_pose, tip)
         tick.gap = self._slider.gap(object_pose, tip)
+        tick.disturbance = self._disturbance.rate
         self._limit(tick, predicted[2], tip)
         return tick
 

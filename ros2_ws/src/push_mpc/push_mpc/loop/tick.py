@@ -41,6 +41,7 @@ class Tick:
         gap: measured distance between tip and face [m], negative in contact by overlap.
         input: commanded [v_n, v_t] (2,) [m/s], body frame.
         nominal_input: planned [v_n, v_t] (2,) [m/s].
+        disturbance: estimated error of the model (3,) [1, 1, rad/m], see `DisturbanceEstimator`.
         solve_ms: duration of the QP [ms].
         iterations: of the solver, summed over the QPs of the tick.
         solver_status: of OSQP, 1 = solved.
@@ -59,6 +60,7 @@ class Tick:
     gap: float = 0.0
     input: Array | None = None
     nominal_input: Array | None = None
+    disturbance: Array | None = None
     solve_ms: float = 0.0
     iterations: int = 0
     solver_status: int = 0

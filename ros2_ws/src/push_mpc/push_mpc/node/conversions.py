@@ -51,6 +51,7 @@ def fill_state(message: ControllerState, tick: Tick) -> None:
     message.gap = float(tick.gap)
     message.input = unknown[:2] if tick.input is None else tick.input
     message.nominal_input = unknown[:2] if tick.nominal_input is None else tick.nominal_input
+    message.disturbance = unknown[:3] if tick.disturbance is None else tick.disturbance
     message.solve_ms = tick.solve_ms
     message.iterations = tick.iterations
     message.solver_status = tick.solver_status

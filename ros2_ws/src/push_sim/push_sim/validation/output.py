@@ -26,6 +26,11 @@ from push_sim.validation.comparison import (
 
 _Row: TypeAlias = tuple[str, ...]
 
+PAGE_TEXT = (
+    'The simulator, and beside it the ellipsoidal limit surface alone, repeat measured pushes '
+    'and runs of the robot from their measured starts. Of more than 1500 short pushes every '
+    'k-th is drawn; the numbers are of all.'
+)
 _KINDS = {
     SHORT_FILES: 'short pushes',
     LONG_FILES: 'long pushes',
@@ -184,13 +189,13 @@ def write_validation_page(path: Path, result: Validation, profile: str, table: s
     # plotly takes a second to import
     from push_report.page import write_page  # noqa: PLC0415
 
-    from push_sim.validation.push_figures import long_figure, short_figure  # noqa: PLC0415
-    from push_sim.validation.run_figure import run_figure  # noqa: PLC0415
+    from push_sim.validation.push_figures import long_figures, short_figures  # noqa: PLC0415
+    from push_sim.validation.run_figure import run_figures  # noqa: PLC0415
 
-    figures = [
-        *([short_figure(result.short)] if result.short else []),
-        *(long_figure(each) for each in result.long),
-        *(run_figure(each) for each in result.runs),
+    parts = [
+        *([short_figures(result.short)] if result.short else []),
+        *(long_figures(each) for each in result.long),
+        *(run_figures(each) for each in result.runs),
     ]
     title = f'Plant and measurements, profile {profile}'
-    write_page(path, title, table.splitlines(), figures)
+    write_page(path, title, table.splitlines(), parts, PAGE_TEXT)

@@ -1,38 +1,37 @@
 """Figures of pushes: predicted against measured motion, and end poses."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import plotly.graph_objects as go
-from plotly.subplots import make_subplots
 from push_core.data import READABLE, in_push_frame
 from push_core.geometry import Array, points_to_body, wrap_angles
-from push_report.page import COLOURS
+from push_report.figure_style import BLUE, INK, MOST_MARKERS, RED, thinned
 
 from push_sim.validation.comparison import LongComparison, ShortComparison
 
 _TITLES = ('along the push [mm]', 'across [mm]', 'rotation [deg]')
-_SERIES = (('simulator', COLOURS[0]), ('ellipsoid', COLOURS[1]))
-_PANELS = {'horizontal_spacing': 0.08}
+_SERIES = (('simulator', BLUE), ('ellipsoid', RED))
 _HEIGHT = 600
-LEGEND = {'orientation': 'h', 'y': -0.22, 'yanchor': 'top', 'itemsizing': 'constant'}
+
+Part = tuple[str, list[go.Figure]]
+"""Heading and figures of a section."""
 
 
-def short_figure(compared: ShortComparison) -> go.Figure:
-    """Short pushes in the push frame, predicted against measured, one panel for each output."""
+def short_figures(compared: ShortComparison) -> Part:
+    """Short pushes in the push frame, predicted against measured, a figure for each output."""
     beta = compared.pushes.beta
     measured = in_push_frame(compared.pushes.displacement, beta) / READABLE
     predicted = [in_push_frame(each, beta) / READABLE for each in _both(compared)]
-    figure = make_subplots(1, 3, subplot_titles=_TITLES, **_PANELS)
-    for column in range(3):
-        for each, (name, colour) in zip(predicted, _SERIES, strict=True):
-            _dots(figure, column, measured[:, column], each[:, column], name, colour)
-        _diagonal(figure, column, measured[:, column])
-    figure.update_xaxes(title_text='measured').update_yaxes(title_text='predicted', col=1)
+    figures = [
+        _against(title, measured[:, column], [each[:, column] for each in predicted])
+        for column, title in enumerate(_TITLES)
+    ]
     length = f'{compared.pushes.distance * 1e3:g} mm'
-    title = f'{len(measured)} pushes of {length}, predicted against measured'
-    return figure.update_layout(title_text=title, legend=LEGEND)
+    return f'{len(measured)} pushes of {length}, predicted against measured', figures
 
 
-def long_figure(compared: LongComparison) -> go.Figure:
+def long_figures(compared: LongComparison) -> Part:
     """Long pushes on the face: lines from measured to simulated ends, and the rotations."""
     pushes = compared.pushes
     chosen = np.flatnonzero(pushes.on_face)
@@ -40,18 +39,13 @@ def long_figure(compared: LongComparison) -> go.Figure:
         _in_start_frame(pushes.start[chosen], end[chosen])
         for end in (pushes.end, *_both(compared))
     )
-    titles = ('ends in the start frame, x away from the face [mm]', 'rotation [deg]')
-    figure = make_subplots(1, 2, subplot_titles=titles, column_widths=[0.6, 0.4], **_PANELS)
-    _arrows(figure, measured, predicted[0])
-    for each, (name, colour) in zip(predicted, _SERIES, strict=True):
-        _dots(figure, 1, measured[:, 2], each[:, 2], name, colour)
-    _diagonal(figure, 1, measured[:, 2])
-    figure.update_xaxes(title_text='y [mm]', row=1, col=1)
-    figure.update_yaxes(title_text='x [mm]', scaleanchor='x', row=1, col=1)
-    figure.update_xaxes(title_text='measured', row=1, col=2)
-    figure.update_yaxes(title_text='predicted', row=1, col=2)
-    title = f'{compared.file}: {len(chosen)} pushes that stay on the face'
-    return figure.update_layout(title_text=title, height=_HEIGHT, legend=LEGEND)
+    ends = _arrows(measured, predicted[0])
+    ends.update_xaxes(title='y [mm]')
+    ends.update_yaxes(title='x in the start frame, away from the face [mm]', scaleanchor='x')
+    ends.update_layout(height=_HEIGHT)
+    turns = _against(_TITLES[2], measured[:, 2], [each[:, 2] for each in predicted])
+    turns.update_layout(height=_HEIGHT)
+    return f'{compared.file}: {len(chosen)} pushes that stay on the face', [ends, turns]
 
 
 def _both(compared: ShortComparison | LongComparison) -> tuple[Array, Array]:
@@ -65,49 +59,29 @@ def _in_start_frame(start: Array, end: Array) -> Array:
     return np.asarray(np.column_stack((moved, turned)) / READABLE)
 
 
-def _dots(
-    figure: go.Figure, column: int, measured: Array, predicted: Array, name: str, colour: str
-) -> None:
-    figure.add_trace(
-        go.Scattergl(
-            x=np.float32(measured),
-            y=np.float32(predicted),
-            mode='markers',
-            name=name,
-            legendgroup=name,
-            showlegend=column < 2 and not _named(figure, name),
-            marker={'size': 4, 'color': colour, 'opacity': 0.55},
-        ),
-        row=1,
-        col=column + 1,
-    )
-
-
-def _named(figure: go.Figure, name: str) -> bool:
-    return any(trace.name == name for trace in figure.data)
-
-
-def _diagonal(figure: go.Figure, column: int, measured: Array) -> None:
+def _against(title: str, measured: Array, predicted: Sequence[Array]) -> go.Figure:
+    """Predicted over measured values (n,), on the line where they are equal."""
+    figure = go.Figure()
+    for each, (name, colour) in zip(predicted, _SERIES, strict=True):
+        x, y = thinned(measured, each, most=MOST_MARKERS)
+        dots = {'size': 4, 'color': colour, 'opacity': 0.55}
+        figure.add_scatter(x=x, y=y, mode='markers', name=name, marker=dots)
     ends = [float(measured.min()), float(measured.max())]
-    line = {'color': 'black', 'width': 1}
-    trace = go.Scatter(x=ends, y=ends, mode='lines', line=line, showlegend=False)
-    figure.add_trace(trace, row=1, col=column + 1)
+    line = {'color': INK, 'width': 1}
+    figure.add_scatter(x=ends, y=ends, mode='lines', line=line, showlegend=False)
+    figure.update_xaxes(title=f'measured {title}')
+    return figure.update_yaxes(title=f'predicted {title}')
 
 
-def _arrows(figure: go.Figure, measured: Array, simulated: Array) -> None:
+def _arrows(measured: Array, simulated: Array) -> go.Figure:
     """Lines from measured to simulated ends, with a dot at the measured one."""
     gaps = np.full(len(measured), np.nan)
     x = np.column_stack((measured[:, 0], simulated[:, 0], gaps)).ravel()
     y = np.column_stack((measured[:, 1], simulated[:, 1], gaps)).ravel()
-    line = {'color': _SERIES[0][1], 'width': 1}
-    figure.add_trace(
-        go.Scatter(x=y, y=x, mode='lines', line=line, name='to the simulated end'), row=1, col=1
-    )
-    marker = {'size': 4, 'color': 'black'}
-    figure.add_trace(
-        go.Scatter(
-            x=measured[:, 1], y=measured[:, 0], mode='markers', marker=marker, name='measured end'
-        ),
-        row=1,
-        col=1,
+    line = {'color': BLUE, 'width': 1}
+    marker = {'size': 4, 'color': INK}
+    figure = go.Figure()
+    figure.add_scatter(x=y, y=x, mode='lines', line=line, name='to the simulated end')
+    return figure.add_scatter(
+        x=measured[:, 1], y=measured[:, 0], mode='markers', marker=marker, name='measured end'
     )
