@@ -120,4 +120,92 @@ def test_a_missing_file_a_folder_and_a_binary_file_are_refused(tmp_path) -> None
     assert 'No such file' in refusal(tmp_path / 'none.csv')
     assert 'Is a directory' in refusal(tmp_path)
     (tmp_path / 'image.csv').write_bytes(b'\x89PNG\xff\xfe')
-    assert 'not a text file' in refusal(tmp_path / 'image.csv')
+    assert 'not a CSV text file' in refusal(tmp_path / 'image.csv')
+
+
+OVAL = np.array([[0.3 * math.cos(a), 0.2 * math.sin(a)] for a in np.linspace(0.0, math.tau, 60)])
+
+
+def lines(points, between=',', form='{:.6f}') -> str:
+    return ''.join(between.join(form.format(value) for value in point) + '\n' for point in points)
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        '# oval\n' + lines(OVAL),
+        '# x_m,y_m\n' + lines(OVAL),
+        '# x_m,y_m,w_tr_right_m,w_tr_left_m\n' + lines(np.hstack([OVAL, 0.1 + 0.0 * OVAL])),
+        '# s_m; x_m; y_m\n' + lines(np.column_stack([np.arange(60.0), OVAL]), '; '),
+        lines(OVAL, ';'),
+        lines(OVAL, ';').replace('.', ','),
+        lines(OVAL, '\t'),
+        'X\tY\n' + lines(OVAL, '\t'),
+        lines(OVAL, ' ', '{:.18e}'),
+        '# x y\n' + lines(OVAL, '  '),
+        '"x","y"\n' + lines(OVAL, ',', '"{:.6f}"'),
+        ',x,y\n' + lines(np.column_stack([np.arange(60.0), OVAL])),
+        't,x,y,theta\n' + lines(np.column_stack([np.arange(60.0), OVAL, np.arange(60.0)])),
+        'x,y,comment\n' + lines(OVAL).replace('\n', ',a corner\n'),
+        '# made by hand, x to the right\n\nx,y\n' + lines(OVAL),
+        lines(OVAL).replace('\n', ',\n'),
+        lines(OVAL).replace('\n', '\r\n'),
+        lines(OVAL[:-1]) + '# the end\n' + lines(OVAL[-1:]),
+    ],
+)
+def test_a_track_is_read_as_other_programs_write_it(text, tmp_path, capsys) -> None:
+    path = tmp_path / 'oval.csv'
+    path.write_text(text, newline='')
+    track = read_track(path)
+    (tmp_path / 'plain.csv').write_text(lines(OVAL))
+    assert track.length == pytest.approx(read_track(tmp_path / 'plain.csv').length, abs=1e-5)
+    assert track.closed
+    assert capsys.readouterr().err == ''
+
+
+@pytest.mark.parametrize(
+    ('text', 'fault'),
+    [
+        ('x_mm,y_mm\n' + lines(1e3 * OVAL), 'divide millimetres by 1000'),
+        ('lat,lon\n' + lines(OVAL), "the heading 'lat,lon' is not x,y"),
+        ('x,y,x\n' + lines(np.hstack([OVAL, OVAL[:, :1]])), 'is not x,y'),
+        (lines(np.column_stack([np.arange(60.0), OVAL])), 'counts the rows; name the columns'),
+        (lines(OVAL[:, :1]), 'expected two numbers'),
+        ('x,y\n' + lines(OVAL, ';'), 'expected two numbers'),
+        ('{"x": [0, 1]}\n', 'not x,y'),
+    ],
+)
+def test_what_is_not_clear_is_refused_with_what_to_change(text, fault, tmp_path) -> None:
+    path = tmp_path / 'oval.csv'
+    path.write_text(text)
+    assert fault in refusal(path)
+
+
+@pytest.mark.parametrize('gap', [1e-5, 0.6e-3, 1.9e-3])
+def test_a_track_that_all_but_ends_where_it_begins_is_closed_with_a_word(
+    gap, write_track, capsys
+) -> None:
+    points = OVAL.copy()
+    points[-1] += [0.0, gap]
+    track = read_track(write_track(points))
+    assert track.closed
+    assert track.length == pytest.approx(read_track(write_track(OVAL)).length, rel=1e-6)
+    assert 'mm from its start, so it is closed' in capsys.readouterr().err
+
+
+@pytest.mark.parametrize('points', [OVAL[:-1], OVAL[:-1] * 0.1, POINTS])
+def test_one_that_ends_farther_away_stays_open(points, write_track) -> None:
+    assert not read_track(write_track(points)).closed
+
+
+def test_a_curve_through_the_corners_of_a_polygon_says_how_far_it_leaves_the_sides(
+    write_track, capsys
+) -> None:
+    square = np.array([[0.0, 0.0], [0.3, 0.0], [0.3, 0.3], [0.0, 0.3], [0.0, 0.0]])
+    track = read_track(write_track(square))
+    x, y, _, _ = track.at(np.linspace(0.0, track.length, 2000))
+    aside = max(x.max() - 0.3, y.max() - 0.3, -x.min(), -y.min())
+    told = capsys.readouterr().err
+    assert f'up to {1e3 * aside:.0f} mm off the straight lines between them' in told
+    read_track(write_track(OVAL))
+    assert capsys.readouterr().err == ''

@@ -28,7 +28,10 @@ def test_a_track_in_millimetres_is_refused_at_once(tmp_path) -> None:
 
 
 def test_an_open_track_has_no_second_lap() -> None:
-    with pytest.raises(InputError, match='track line is open and has no second lap'):
+    with pytest.raises(
+        InputError,
+        match='track line is open and has no second lap; its end is 500 mm from its start',
+    ):
         planned(replace(SETTINGS, track='line', laps=2))
 
 

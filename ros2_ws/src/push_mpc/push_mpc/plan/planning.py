@@ -12,6 +12,7 @@ from push_mpc.plan.task import PlanningTask
 from push_mpc.settings import MpcSettings
 
 _PLACES = 1000
+_FARTHEST_OF_METRES = 20.0
 _MARGIN = 0.5  # [s] beyond horizon and delay
 
 
@@ -31,7 +32,10 @@ def planned(settings: MpcSettings) -> Plan:
     track = tracks.by_name(settings.track)
     _check_workspace(track, settings.limits)
     if settings.laps > 1 and not track.closed:
-        raise InputError(f'track {track.name} is open and has no second lap')
+        raise InputError(
+            f'track {track.name} is open and has no second lap; its end is '
+            f'{1e3 * _gap(track):.4g} mm from its start'
+        )
     plan = _plan(settings, track)
     _check_pushes(plan, settings)
     return plan
@@ -110,11 +114,24 @@ def _heading(name: str, text: str) -> float | None:
     return math.radians(degrees)
 
 
+def _unit_hint(farthest: float) -> str:
+    """What a file with a point that far [m] from the origin may be."""
+    if farthest > _FARTHEST_OF_METRES:
+        return 'its points are in metres, but look like millimetres: divide them by 1000'
+    return 'its points are in metres'
+
+
+def _gap(track: tracks.Track) -> float:
+    """Distance [m] of the ends of a track."""
+    x, y, _, _ = track.at(np.array([0.0, track.length]))
+    return math.hypot(x[1] - x[0], y[1] - y[0])
+
+
 def _check_workspace(track: tracks.Track, limits: SafetyLimits) -> None:
     """Checks the track's extent; a file in millimetres would make a plan of hours."""
     x, y, _, _ = track.at(np.linspace(0.0, track.length, _PLACES, endpoint=False))
     if np.abs(x).max() > limits.workspace_x or np.abs(y).max() > limits.workspace_y:
         raise InputError(
             f'track {track.name} leaves the workspace of +-{limits.workspace_x:g} m by '
-            f'+-{limits.workspace_y:g} m; its points are in metres'
+            f'+-{limits.workspace_y:g} m; {_unit_hint(max(np.abs(x).max(), np.abs(y).max()))}'
         )

@@ -1,9 +1,9 @@
 """The lines of a CSV file in whatever dialect other programs write it.
 
-Read are: comma, semicolon or tab between the values, a decimal comma beside the latter two, lines
-of comment that begin with `#`, a line of names behind `#`, quotes, blank lines, a byte order mark,
-CRLF. The module csv of the standard library splits the lines; its Sniffer guesses, where the names
-of the columns that we look for decide.
+Read are: comma, semicolon, tab or blanks between the values, a decimal comma beside the latter
+three, lines of comment that begin with `#`, a line of names behind `#`, quotes, blank lines, a
+byte order mark, CRLF. The module csv of the standard library splits the lines; its Sniffer
+guesses, where the names of the columns that we look for decide.
 """
 
 import csv
@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from push_core.common import InputError
+from push_core.common.errors import InputError
 
 DELIMITERS = (',', ';', '\t')
 COMMENT = '#'
@@ -34,18 +34,19 @@ class CsvText:
     rows: Sequence[tuple[int, list[str]]]
 
 
-def read_csv_text(path: Path, known: Collection[str]) -> CsvText:
+def read_csv_text(path: Path, known: Collection[str], at_least: int = 1) -> CsvText:
     """Splits a file into cells.
 
     Args:
         path: of the file.
         known: names of columns, in lower case, by which a line of names is recognised.
+        at_least: number of them that a line of names holds; more tell it from a comment.
 
     Raises:
         InputError: the file cannot be read, or is no text.
     """
     lines = _lines(path)
-    header = next((line for line in lines if _names(line[1], known)), None)
+    header = next((line for line in lines if _names(line[1], known, at_least)), None)
     first = next((line for line in lines if not line[1].startswith(COMMENT)), (1, ''))
     delimiter = _delimiter((header or first)[1], known)
     plain = [line for line in lines if line != header and not line[1].startswith(COMMENT)]
@@ -94,10 +95,19 @@ def _lines(path: Path) -> list[tuple[int, str]]:
     return [(number, line.strip(' ')) for number, line in numbered if line.strip(' \t,;')]
 
 
-def _names(line: str, known: Collection[str]) -> bool:
-    """Whether a line, be it a comment, names columns that are known."""
+def _names(line: str, known: Collection[str], at_least: int) -> bool:
+    """Whether a line, be it a comment, names so many columns that are known."""
     text = line.lstrip(COMMENT + ' ')
-    return any(cell.lower() in known for mark in DELIMITERS for cell in _cells(text, mark))
+    return any(_found(text, mark, known) >= at_least for mark in _marks(text))
+
+
+def _found(text: str, mark: str, known: Collection[str]) -> int:
+    return len({cell.lower() for cell in _cells(text, mark)} & {*known})
+
+
+def _marks(text: str) -> Sequence[str]:
+    """The delimiters of a line; blanks only without another one."""
+    return [mark for mark in DELIMITERS if mark in text] or [' ']
 
 
 def _delimiter(line: str, known: Collection[str]) -> str:
@@ -106,10 +116,9 @@ def _delimiter(line: str, known: Collection[str]) -> str:
 
     def merit(mark: str) -> tuple[int, bool, int]:
         cells = _cells(text, mark)
-        found = sum(cell.lower() in known for cell in cells)
-        return found, mark != ',' and len(cells) > 1, len(cells)
+        return _found(text, mark, known), mark != ',' and len(cells) > 1, len(cells)
 
-    return max(DELIMITERS, key=merit)
+    return max(_marks(text), key=merit)
 
 
 def _cells(line: str, delimiter: str) -> list[str]:
