@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from push_core.common import setting, validate
+from push_node.graph import full_name
 from push_node.interface import TOPICS
 from push_node.parameters import declared
 from push_node.spin import run_node
-from push_node.topic_names import full_name
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from push_core.common import InputError, RunError, flatten
 from push_node.diagnostics import Reporter
+from push_node.graph import full_name
 from push_node.interface import TOPICS
 from push_node.parameters import declared
 from push_node.spin import request_stop, run_node
-from push_node.topic_names import full_name
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 

@@ -5,8 +5,8 @@ from collections.abc import Iterable
 
 from push_core.common import InputError
 from push_node.endpoints import short_name
+from push_node.graph import publisher_names, subscriber_names
 from push_node.interface import OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD
-from push_node.sources import publisher_names, subscriber_names
 from rclpy.node import Node
 
 DISCOVERY_TIME = 1.0  # [s] for nodes that run already to answer a new one

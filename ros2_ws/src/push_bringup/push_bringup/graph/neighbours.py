@@ -3,7 +3,7 @@
 import time
 
 from push_core.common import RunError
-from push_node.sources import SINGLE_SOURCE, publisher_names, second_source
+from push_node.graph import SINGLE_SOURCE, publisher_names, second_source
 from rclpy.node import Node
 
 from push_bringup.graph.processes import MODULES

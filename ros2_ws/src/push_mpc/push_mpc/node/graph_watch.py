@@ -1,7 +1,7 @@
 """Watches the graph for second sources of commands and poses."""
 
+from push_node.graph import publisher_names, second_source
 from push_node.interface import PUSHER_VELOCITY_CMD
-from push_node.sources import publisher_names, second_source
 from rclpy.node import Node
 
 

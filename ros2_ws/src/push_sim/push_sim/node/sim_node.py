@@ -9,10 +9,10 @@ from push_msgs.msg import NominalTrajectory
 from push_msgs.srv import Perturb, Reset
 from push_node import interface
 from push_node.diagnostics import Reporter
+from push_node.graph import second_source
 from push_node.parameters import declared, override
 from push_node.publishers import PUBLISHERS, GraphPublishers
 from push_node.realtime import enter_realtime
-from push_node.sources import second_source
 from push_node.spin import run_node
 from push_node.stamps import to_nanoseconds, to_stamp
 from rclpy.clock import Clock, ClockType

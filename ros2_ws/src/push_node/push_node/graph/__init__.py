@@ -1,0 +1,11 @@
+"""Names of topics as users write them, and the nodes at the ends of a topic."""
+
+from push_node.graph.sources import (
+    SINGLE_SOURCE,
+    publisher_names,
+    second_source,
+    subscriber_names,
+)
+from push_node.graph.topic_names import full_name
+
+__all__ = ['SINGLE_SOURCE', 'full_name', 'publisher_names', 'second_source', 'subscriber_names']
