@@ -76,7 +76,7 @@ def test_table_and_page_show_every_part_and_say_what_is_missing(
     assert page.read_text().count('class="figure"') == 3
     assert 'weave.csv' in shown
     assert 'dead time 71.3 ms, lag 33.4 ms' in shown
-    assert 'no short pushes: there is no square_4mm_pushes*.csv' in shown
+    assert 'no short pushes: no file has the columns p_y_m, beta_rad, dx_m' in shown
     assert 'no long pushes' in shown
 
 

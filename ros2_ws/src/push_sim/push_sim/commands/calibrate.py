@@ -22,8 +22,8 @@ from push_sim.calibration import (
     calibration_table,
     ros_parameter_file,
 )
-from push_sim.commands.command_checks import check_jobs, check_seed
-from push_sim.measured import files_hash, read_measured_data
+from push_sim.commands.command_checks import check_jobs, check_seed, read_and_tell
+from push_sim.measured import measurement_files
 from push_sim.settings import PROFILES, profile
 
 EPILOG = """method:
@@ -68,7 +68,8 @@ def work(arguments: argparse.Namespace) -> None:
     check_seed(arguments.seed)
     if arguments.output:
         check_place(arguments.output)
-    data, data_hash = read_measured_data(arguments.data), files_hash(arguments.data)
+    data = read_and_tell(arguments.data, 'calibrate')
+    data_hash = measurement_files(arguments.data).sha256()
     start, seed = profile(arguments.profile), arguments.seed
     with worker_pool(arguments.jobs) as pool:
         result = calibrate_plant(data, start, Slider(), pool.in_order, seed)

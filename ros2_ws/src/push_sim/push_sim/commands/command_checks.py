@@ -1,6 +1,11 @@
-"""Range checks of command line options."""
+"""What the commands check of their options and data."""
+
+import sys
+from pathlib import Path
 
 from push_core.common import InputError
+
+from push_sim.measured import MeasuredData, read_measured_data
 
 _MOST_JOBS = 256
 
@@ -23,3 +28,15 @@ def check_jobs(jobs: int) -> None:
 def check_seed(seed: int) -> None:
     """Checks the seed of a random generator; raises `InputError`."""
     check_range('--seed', seed, 0, 2**62)
+
+
+def read_and_tell(folder: Path, command: str) -> MeasuredData:
+    """The measurements of a folder; tells on standard error which files were left out.
+
+    Raises:
+        InputError: the folder has no measurements, or a file is faulty.
+    """
+    data = read_measured_data(folder)
+    for name, reason in data.left_out.items():
+        sys.stderr.write(f'{command}: left out {name}: {reason}\n')
+    return data

@@ -8,8 +8,7 @@ from pathlib import Path
 from push_core.common import Parser, check_place, json_text, run_command, usable_cores, worker_pool
 from push_core.physics import Slider
 
-from push_sim.commands.command_checks import check_jobs
-from push_sim.measured import LONG_FILES, RUN_FILES, SHORT_FILES, read_measured_data
+from push_sim.commands.command_checks import check_jobs, read_and_tell
 from push_sim.settings import PROFILES, profile
 from push_sim.validation import (
     compare_with_measurements,
@@ -18,12 +17,14 @@ from push_sim.validation import (
     write_validation_page,
 )
 
-EPILOG = f"""files in DIR; at least one kind must be there:
-  {SHORT_FILES:28}short pushes; each is simulated from its p_y and beta
-  {LONG_FILES:28}straight pushes of 50 mm; each is simulated with the measured
-  {'':28}start and end of the tip
-  {RUN_FILES:28}robot runs; the commanded tip is compared through the actuator
-  {'':28}model, the object in windows of 0.5 s with the sensed tip
+EPILOG = """files in DIR and below, by the columns that they name; at least one kind must be there:
+  p_y_m,beta_rad,dx_m,dy_m,dtheta_rad,distance_m
+        short pushes; each is simulated from its p_y and beta
+  x0_m,y0_m,theta0_rad,x1_m,y1_m,theta1_rad,tip_x0_m,tip_y0_m,tip_x1_m,tip_y1_m
+        straight long pushes; each is simulated with the measured start and end of the tip
+  t_s,slider_x_m,slider_y_m,slider_theta_rad,pusher_cmd_x_m,pusher_cmd_y_m,pusher_x_m,pusher_y_m
+        robot runs; the commanded tip is compared through the actuator model, the object in
+        windows of 0.5 s with the sensed tip
 
 The ellipsoid is the limit surface that fits the short pushes best. A long push counts as on the
 face if the measured end of the tip is within half a side, and 1 mm, of the middle of the face on
@@ -59,7 +60,7 @@ def work(arguments: argparse.Namespace) -> None:
     check_jobs(arguments.jobs)
     if arguments.html:
         check_place(arguments.html)
-    data = read_measured_data(arguments.data)
+    data = read_and_tell(arguments.data, 'validate')
     with worker_pool(arguments.jobs) as pool:
         settings = profile(arguments.profile)
         result = compare_with_measurements(data, settings, Slider(), pool.in_order)

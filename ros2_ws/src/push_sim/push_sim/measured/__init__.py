@@ -1,28 +1,23 @@
 """Measured pushes and robot runs, and their replay in a simulated world."""
 
 from push_sim.measured.measured_data import (
-    LONG_FILES,
-    RUN_FILES,
-    SHORT_FILES,
     MeasuredData,
-    files_hash,
     read_measured_data,
     split_measurements,
 )
+from push_sim.measured.measurement_files import COLUMNS, measurement_files
 from push_sim.measured.replay import ProgressBar, Replay
 from push_sim.measured.run_windows import Windows, cut_windows
 from push_sim.measured.tip_replay import modelled_tip, rms_coordinate, tip_error
 
 __all__ = [
-    'LONG_FILES',
-    'RUN_FILES',
-    'SHORT_FILES',
+    'COLUMNS',
     'MeasuredData',
     'ProgressBar',
     'Replay',
     'Windows',
     'cut_windows',
-    'files_hash',
+    'measurement_files',
     'modelled_tip',
     'read_measured_data',
     'rms_coordinate',

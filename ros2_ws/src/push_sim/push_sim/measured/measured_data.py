@@ -1,9 +1,7 @@
 """A folder of measurements, and its split into a part to fit and a part to test."""
 
-import hashlib
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import reduce
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -18,9 +16,13 @@ from push_core.data import (
     read_robot_run,
 )
 
-SHORT_FILES = 'square_4mm_pushes*.csv'
-LONG_FILES = 'square_50mm_pushes*.csv'
-RUN_FILES = 'robot_runs/*.csv'
+from push_sim.measured.measurement_files import (
+    COLUMNS,
+    LONG_PUSHES,
+    ROBOT_RUNS,
+    SHORT_PUSHES,
+    measurement_files,
+)
 
 
 @dataclass(frozen=True)
@@ -28,48 +30,60 @@ class MeasuredData:
     """The measurements of a folder.
 
     Attributes:
-        short: pushes of 4 mm from all matching files; None if there are none.
+        short: pushes of 4 mm of all files; None if there are none.
         long: straight pushes of 50 mm by file name.
         runs: runs of the real robot, by file name.
+        left_out: files that hold none of these, with the reason.
     """
 
     short: PushSet | None
     long: Mapping[str, LongPushes]
     runs: tuple[RobotRun, ...]
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def missing(self) -> tuple[str, ...]:
-        """File patterns without a file."""
-        parts = ((SHORT_FILES, self.short), (LONG_FILES, self.long), (RUN_FILES, self.runs))
-        return tuple(pattern for pattern, part in parts if not part)
-
-
-def files_hash(folder: Path) -> str:
-    """SHA-256 of all measurement files of a folder, in the order of their names."""
-    digest = hashlib.sha256()
-    for pattern in (SHORT_FILES, LONG_FILES, RUN_FILES):
-        for path in sorted(folder.glob(pattern)):
-            digest.update(path.read_bytes())
-    return digest.hexdigest()
+        """Kinds of measurements without a file."""
+        parts = ((SHORT_PUSHES, self.short), (LONG_PUSHES, self.long), (ROBOT_RUNS, self.runs))
+        return tuple(kind for kind, part in parts if not part)
 
 
 def read_measured_data(folder: Path) -> MeasuredData:
-    """Reads all measurement files of a folder.
+    """Reads all measurement files of a folder, whatever they are called.
 
     Raises:
         InputError: the folder does not exist or has no such file, or a file is faulty.
     """
-    if not folder.is_dir():
-        raise InputError(f'{folder} is no folder; name the one with the measured pushes')
-    short = [read_pushes(path) for path in sorted(folder.glob(SHORT_FILES))]
+    files = measurement_files(folder)
+    short, long, runs = (files.of_kind[kind] for kind in (SHORT_PUSHES, LONG_PUSHES, ROBOT_RUNS))
     data = MeasuredData(
-        reduce(PushSet.joined, short) if short else None,
-        {path.name: read_long_pushes(path) for path in sorted(folder.glob(LONG_FILES))},
-        tuple(read_robot_run(path) for path in sorted(folder.glob(RUN_FILES))),
+        _joined(short),
+        {files.name(path): read_long_pushes(path) for path in long},
+        tuple(read_robot_run(path) for path in runs),
+        {files.name(path): reason for path, reason in files.left_out.items()},
     )
-    if len(data.missing) == 3:
-        raise InputError(f'{folder} holds none of {", ".join(data.missing)}')
+    if len(data.missing) == len(COLUMNS):
+        why = ''.join(f'; {name} {reason}' for name, reason in list(data.left_out.items())[:3])
+        raise InputError(f'{folder} holds none of {", ".join(data.missing)}{why}')
     return data
+
+
+def _joined(paths: Sequence[Path]) -> PushSet | None:
+    """The pushes of all files.
+
+    Raises:
+        InputError: a file is faulty, or its pushes are of another distance.
+    """
+    joined = None
+    for path in paths:
+        pushes = read_pushes(path)
+        if joined and pushes.distance != joined.distance:
+            raise InputError(
+                f'{path}: pushes of {1e3 * pushes.distance:g} mm, but of '
+                f'{1e3 * joined.distance:g} mm in {paths[0]}; put them into a folder of their own'
+            )
+        joined = joined.joined(pushes) if joined else pushes
+    return joined
 
 
 def split_measurements(data: MeasuredData, seed: int) -> tuple[MeasuredData, MeasuredData]:

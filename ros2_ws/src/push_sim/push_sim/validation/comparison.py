@@ -86,7 +86,7 @@ class Validation:
         short: short pushes of all files together.
         long: long pushes, one for each file.
         runs: robot runs.
-        missing: file patterns without a file.
+        missing: kinds of measurements without a file.
     """
 
     short: ShortComparison | None

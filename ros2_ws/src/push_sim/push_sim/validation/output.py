@@ -11,9 +11,7 @@ from push_core.geometry import Array, wrap_angle
 from push_core.physics import ActuatorSettings
 
 from push_sim.measured import (
-    LONG_FILES,
-    RUN_FILES,
-    SHORT_FILES,
+    COLUMNS,
     rms_coordinate,
     tip_error,
 )
@@ -31,11 +29,6 @@ PAGE_TEXT = (
     'and runs of the robot from their measured starts. Of more than 1500 short pushes every '
     'k-th is drawn; the numbers are of all.'
 )
-_KINDS = {
-    SHORT_FILES: 'short pushes',
-    LONG_FILES: 'long pushes',
-    RUN_FILES: 'robot runs',
-}
 
 
 def validation_json(result: Validation) -> dict[str, Any]:
@@ -114,7 +107,10 @@ def validation_table(figures: Mapping[str, Any], profile: str) -> str:
         figures: all of them.
         profile: name of the plant's profile.
     """
-    missing = (f'no {_KINDS[each]}: there is no {each}' for each in figures['missing'])
+    missing = (
+        f'no {kind}: no file has the columns {", ".join(COLUMNS[kind])}'
+        for kind in figures['missing']
+    )
     return '\n'.join([*plain_table(validation_rows(figures, profile)), *missing, ''])
 
 
