@@ -2,6 +2,7 @@
 
 from push_core.common.atomic_file import check_place, write_atomically
 from push_core.common.command_line import Parser, describe, run_command
+from push_core.common.csv_text import CsvText, number_of, read_csv_text
 from push_core.common.errors import InputError, PushError, RunError
 from push_core.common.interrupts import (
     INTERRUPTED,
@@ -25,6 +26,7 @@ from push_core.common.workers import Map, Workers, usable_cores, worker_pool
 
 __all__ = [
     'INTERRUPTED',
+    'CsvText',
     'Described',
     'InputError',
     'InterruptsHeld',
@@ -41,7 +43,9 @@ __all__ = [
     'json_text',
     'markdown_table',
     'nested',
+    'number_of',
     'plain_table',
+    'read_csv_text',
     'reject_unknown',
     'replaced',
     'run_command',

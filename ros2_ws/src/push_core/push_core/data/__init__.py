@@ -1,7 +1,7 @@
 """Data sets of pushes and their CSV files, and the prediction error on them."""
 
 from push_core.data.checked_pushes import FORCE_HELP, checked_pushes, read_checked_pushes
-from push_core.data.csv_table import CsvTable, read_table
+from push_core.data.csv_table import CsvTable, column_names, read_table
 from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
 from push_core.data.prediction_accuracy import (
@@ -39,6 +39,7 @@ __all__ = [
     'accuracy',
     'check_distance',
     'checked_pushes',
+    'column_names',
     'five_push_pattern',
     'holds_long_pushes',
     'in_push_frame',

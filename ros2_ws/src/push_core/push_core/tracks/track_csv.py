@@ -8,8 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from push_core.common import InputError
-from push_core.common.csv_text import CsvText, number_of, read_csv_text
+from push_core.common import CsvText, InputError, number_of, read_csv_text
 from push_core.geometry import Array
 from push_core.tracks.spline_track import SplineTrack
 from push_core.tracks.track import Track

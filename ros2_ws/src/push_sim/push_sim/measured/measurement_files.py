@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from push_core.common import InputError
-from push_core.data import long_push_csv, push_csv, robot_run
-from push_core.data.csv_table import column_names
+from push_core.data import column_names, long_push_csv, push_csv, robot_run
 
 SHORT_PUSHES = 'short pushes'
 LONG_PUSHES = 'long pushes'
