@@ -15,7 +15,7 @@ LOW_TO_HIGH = ((0.0, '#2b6cb0'), (0.5, '#b569a8'), (1.0, '#d7301f'))
 DIVERGING = ((0.0, '#2b6cb0'), (0.5, '#e8e8e8'), (1.0, '#d7301f'))
 HEIGHT = 420
 MOST_MARKERS = 1500  # a marker takes as long to draw as ten points of a line
-ROBUST = 5.0  # medians at which a robust scale ends
+ROBUST_END = 'twice the 90 % quantile'  # where a robust scale ends, for a text
 MOST_POINTS = 5000  # of one series; keeps a run of any length below 6 MB
 
 FONT = {'family': 'system-ui, -apple-system, "Segoe UI", "DejaVu Sans", sans-serif', 'size': 13}
@@ -49,12 +49,12 @@ def styled(figure: go.Figure, height: int, **layout: Any) -> go.Figure:
 def robust_limit(values: NDArray[Any], least: float) -> float:
     """The end of a scale for values (n,) >= 0 on which a few large ones do not flatten the rest.
 
-    That is the largest value, at most ROBUST times the median, and at least `least`.
+    That is the largest value, at most twice the 90 % quantile, and at least `least`.
     """
     known = values[np.isfinite(values)]
     if not known.size:
         return least
-    return max(least, min(float(known.max()), ROBUST * float(np.median(known))))
+    return max(least, min(float(known.max()), 2.0 * float(np.quantile(known, 0.9))))
 
 
 def thinned(*series: NDArray[Any], most: int = MOST_POINTS) -> tuple[NDArray[np.float32], ...]:

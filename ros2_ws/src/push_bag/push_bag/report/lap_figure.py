@@ -14,7 +14,7 @@ from push_report.figure_style import (
     MOST_MARKERS,
     PALE,
     RED,
-    ROBUST,
+    ROBUST_END,
     robust_limit,
     styled,
     thinned,
@@ -28,7 +28,7 @@ OUTLINES = 16
 LEAST_COLOUR_RANGE = 0.5  # [mm]; with less, a good lap would show its noise
 HEIGHT = 720
 TEXT = (
-    f'Colours end at {ROBUST:g} medians of the tracking error; where it is larger, as after a '
+    f'Colours end at {ROBUST_END} of the tracking error; where it is larger, as after a '
     'perturbation, the path has the last colour.'
 )
 

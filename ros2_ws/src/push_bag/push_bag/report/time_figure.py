@@ -13,7 +13,7 @@ from push_report.figure_style import (
     INK,
     ORANGE,
     RED,
-    ROBUST,
+    ROBUST_END,
     robust_limit,
     styled,
 )
@@ -48,11 +48,11 @@ LEGEND = (
 TIME_AXIS = f'x{len(ROWS)}'  # of the lowest row, for all rows: the cursor crosses them
 HEIGHT = 1560
 TEXT = (
-    f'Axes end at {ROBUST:g} median deviations of what they show, so that one perturbation does '
-    'not flatten the rest; a double click on an axis shows all. v_n and v_t: commanded velocity '
-    'of the tip, and measured over 40 ms. Prediction error: from the predicted centre of the '
-    'object, at the instant when a command takes effect, to the measured one. Model error: what '
-    'the controller estimates that its model misses, per metre of tip travel.'
+    f'Axes end at {ROBUST_END} of what they show, so that one perturbation does not flatten the '
+    'rest; a double click on an axis shows all. v_n and v_t: commanded velocity of the tip, and '
+    'measured over 40 ms. Prediction error: from the predicted centre of the object, at the '
+    'instant when a command takes effect, to the measured one. Model error: what the controller '
+    'estimates that its model misses, per metre of tip travel.'
 )
 
 
@@ -121,7 +121,7 @@ def _add_model(lines: RunLines) -> None:
 
 
 def _robust_range(figure: go.Figure, row: int, shown: tuple[float, float]) -> list[float]:
-    """The range of a row's axis: its values, up to ROBUST median deviations from the median."""
+    """The range of a row's axis: its values, as far as `robust_limit` of their distances."""
     lines = [np.asarray(each.y, np.float64) for each in figure.select_traces(row=row, col=1)]
     values = np.concatenate([np.zeros(0), *lines])
     values = values[np.isfinite(values)]

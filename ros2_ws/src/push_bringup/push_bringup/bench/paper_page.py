@@ -11,7 +11,7 @@ from push_report.figure_style import (
     INK,
     LOW_TO_HIGH,
     MOST_MARKERS,
-    ROBUST,
+    ROBUST_END,
     RUN_COLOURS,
     robust_limit,
     styled,
@@ -26,7 +26,7 @@ HEADS = (
     *('track', 'speed', 'perturbation', 'controller', 'profile', 'laps'),
     *('median', 'truth', 'paper'),
 )
-ROW_HEIGHT, LAP_HEIGHT, CURVE_HEIGHT = 34, 560, 300
+ROW_HEIGHT, LAP_HEIGHT, CURVE_HEIGHT = 42, 560, 300
 COLOURS = dict(zip(CONTROLLERS, RUN_COLOURS, strict=False))
 LEAST_COLOUR_RANGE = 0.5  # [mm]
 ERRORS_TEXT = (
@@ -35,12 +35,12 @@ ERRORS_TEXT = (
     'has one. The axis is logarithmic; laps that were not completed are grey crosses.'
 )
 LAP_TEXT = (
-    f'One lap of the first seed, with its tracking error as colour up to {ROBUST:g} medians; '
-    'larger errors, as after a perturbation, have the last colour.'
+    f'One lap of the first seed, with its tracking error as colour up to {ROBUST_END}; larger '
+    'errors, as after a perturbation, have the last colour.'
 )
 CURVES_TEXT = (
     'Tracking error over the lap, from its start to its end: a thin line is one seed, the thick '
-    f'one the median over the seeds. Axes end at {ROBUST:g} medians; a double click shows all.'
+    f'one the median over the seeds. Axes end at {ROBUST_END}; a double click shows all.'
 )
 
 
@@ -83,6 +83,11 @@ def _name(row: PaperRow) -> str:
     return f'{_experiment(row)}, {row.controller}'
 
 
+def _label(row: PaperRow) -> str:
+    """The name in two lines, narrow enough for a phone."""
+    return f'{_experiment(row)}<br>{row.controller}'
+
+
 def _experiment(row: PaperRow) -> str:
     kick = '' if row.experiment.perturbation == 'none' else f', {row.experiment.perturbation} kick'
     return f'{row.experiment.track} {1e3 * row.experiment.speed:.0f} mm/s{kick}'
@@ -91,7 +96,7 @@ def _experiment(row: PaperRow) -> str:
 def _errors(rows: Sequence[PaperRow]) -> go.Figure:
     """A line for each row: its laps as dots, their quartiles as a box, the paper's figure."""
     figure = go.Figure()
-    labels = [_name(row) for row in rows]
+    labels = [_label(row) for row in rows]
     for name, colour in COLOURS.items():
         own = [row for row in rows if row.controller == name]
         if own:
@@ -102,7 +107,7 @@ def _errors(rows: Sequence[PaperRow]) -> go.Figure:
     figure.add_scatter(x=papers, y=labels, mode='markers', name='paper', marker=diamond)
     styled(figure, 130 + ROW_HEIGHT * len(rows), barmode='overlay', hovermode='closest')
     figure.update_layout(margin={'l': 20})
-    figure.update_xaxes(type='log', title='mean tracking error [mm]', dtick='D2')
+    figure.update_xaxes(type='log', title='mean error [mm]', dtick='D2')
     order = {'categoryorder': 'array', 'categoryarray': labels[::-1]}
     return figure.update_yaxes(automargin=True, **order)
 
@@ -111,9 +116,9 @@ def _add_boxes(figure: go.Figure, rows: Sequence[PaperRow], name: str, colour: s
     for row in rows:
         errors = [lap.mean_mm for lap in row.laps if lap.completed]
         if errors:
-            _add_box(figure, _name(row), np.array(errors), colour)
+            _add_box(figure, _label(row), np.array(errors), colour)
     for is_done, mark in ((True, {'color': colour}), (False, {'color': GREY, 'symbol': 'x'})):
-        laps = [(lap.mean_mm, _name(row)) for row in rows for lap in row.laps]
+        laps = [(lap.mean_mm, _label(row)) for row in rows for lap in row.laps]
         done = [lap.completed for row in rows for lap in row.laps]
         chosen = [each for each, ended in zip(laps, done, strict=True) if ended is is_done]
         if chosen:
