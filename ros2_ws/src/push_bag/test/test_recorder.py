@@ -67,8 +67,9 @@ def start():
     """Starts recorders; kills those that still run after the test."""
     started = []
 
-    def start_recorder(*parameters, before=()):
+    def start_recorder(*parameters, before=(), namespace='/'):
         command = [*before, sys.executable, '-m', 'push_bag.record.recorder', '--ros-args']
+        command += ['-r', f'__ns:={namespace}']
         process = subprocess.Popen(
             [*command, *(word for parameter in parameters for word in ('-p', parameter))],
             stderr=subprocess.PIPE,
@@ -112,6 +113,7 @@ def test_every_message_is_recorded_and_a_signal_finishes_the_bag(cell, start, tm
     _, errors = recorder.communicate(timeout=PATIENCE)
     assert recorder.returncode == 0, errors
     assert re.search(r'recorder: 0 of \d+ messages lost', errors)
+    assert 'UserWarning' not in errors
     reader = BagReader(folder)
     counts = dict.fromkeys((f'/{topic.name}' for topic in CORE), 0)
     for record in reader.records(counts):
@@ -142,6 +144,15 @@ def test_a_wrong_parameter_is_one_line_and_status_2(start, tmp_path):
     assert recorder.returncode == 2
     assert errors.count('\n') == 1
     assert 'exists already' in errors
+
+
+def test_all_its_nodes_are_in_its_namespace(cell, start, tmp_path):
+    start(f'folder:={tmp_path / "run"}', namespace='/left')
+    wait_until(lambda: ('recorder_listener', '/left') in cell.get_node_names_and_namespaces())
+    wait_until(lambda: ('recorder', '/left') in cell.get_node_names_and_namespaces())
+    assert {name for name, place in cell.get_node_names_and_namespaces() if place == '/'} == {
+        cell.get_name()
+    }
 
 
 def test_topics_that_appear_later_are_recorded_by_pattern(cell, start, tmp_path):

@@ -72,7 +72,7 @@ def test_commands_never_reach_a_plant_without_a_further_word(neighbour, replayed
 
 
 def test_a_recorder_does_not_execute_commands(neighbour, replayed) -> None:
-    listener = neighbour('recorder')
+    listener = neighbour('recorder_listener')
     listener.create_subscription(TwistStamped, COMMANDS, lambda message: None, qos.COMMAND)
     assert replayed('--with-commands')[0] == 0
 

@@ -297,6 +297,12 @@ def test_it_stops_when_the_recorder_falls_silent(cell, started) -> None:
     cell.wait(lambda: is_zero(cell.commands[-1]))
     assert cell.call('resume').success
     assert cell.call('start').message == 'waiting for the recorder'
+    cell.recording, cell.recorder_fault = True, 'no publisher of /object_pose'
+    cell.call_until(
+        'start',
+        lambda answer: answer.message == 'waiting for the recorder: no publisher of /object_pose',
+    )
+    cell.recorder_fault = ''
 
 
 def test_it_stops_when_the_recorder_reports_a_failure(cell, started) -> None:

@@ -61,7 +61,7 @@ class Live(Node):  # type: ignore[misc]
         others = {full_name(self, name) for name in split_list(settings.topics)}
         known = [(name, topic.type_name, qos_text(topic.qos)) for name, topic in own.items()]
         server = LiveServer(settings.host, settings.port, known)
-        self._recording = Recording(server, {*offers, *others}, offers)
+        self._recording = Recording(self, server, {*offers, *others}, offers)
         # steady, because simulated time may stand still
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(DRAIN_PERIOD, self._recording.drain, clock=steady)

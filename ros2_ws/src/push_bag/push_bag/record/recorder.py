@@ -50,7 +50,7 @@ class Recorder(Node):  # type: ignore[misc]
         others = {full_name(self, name) for name in split_list(settings.topics)}
         self._core = {self.resolve_topic_name(topic.name) for topic in TOPICS if topic.core}
         self._writer = open_bag(settings)
-        self._recording = Recording(self._writer, {*offers, *others}, offers)
+        self._recording = Recording(self, self._writer, {*offers, *others}, offers)
         self._inputs = self._unattached_inputs(settings)
         self._reporter = Reporter(self, 'recording')
         self._was_complete = False
@@ -124,7 +124,7 @@ class Recorder(Node):  # type: ignore[misc]
             self._reporter.report(False, str(self._failure), self._counts())
             return
         missing = self._missing()
-        message = f'waiting for {", ".join(sorted(missing))}' if missing else 'recording'
+        message = f'no publisher of {", ".join(sorted(missing))}' if missing else 'recording'
         self._reporter.report(not missing, message, self._counts())
 
     def _missing(self) -> set[str]:

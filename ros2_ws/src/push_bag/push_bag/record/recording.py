@@ -13,6 +13,9 @@ from rclpy.qos import QoSProfile
 from push_bag.file import COUNTS_RECORD, Traffic, qos_text
 from push_bag.record.raw_subscription import RawSubscription, weakest
 
+LISTENER = '_listener'
+"""End of the name of a node that subscribes for another."""
+
 
 class RawSink(Protocol):
     """Receives the messages of a `Recording`: a `BagWriter` or a `LiveServer`."""
@@ -48,11 +51,16 @@ class Recording:
     """
 
     def __init__(
-        self, writer: RawSink, topics: Collection[str], offers: Mapping[str, QoSProfile]
+        self,
+        node: Node,
+        writer: RawSink,
+        topics: Collection[str],
+        offers: Mapping[str, QoSProfile],
     ) -> None:
         """Starts with nothing subscribed.
 
         Args:
+            node: that records; gives name and namespace to the subscriptions' own node.
             writer: receives the messages: a bag writer or the live server; closed by `close`.
             topics: full names of the topics to record, or patterns such as `/arm/*`.
             offers: known QoS profiles of publishers by topic, which the bag states. Profiles of
@@ -66,7 +74,8 @@ class Recording:
         self._subscriptions: dict[str, RawSubscription] = {}
         # in no executor: its subscriptions are polled
         self._listener: Node = rclpy.create_node(
-            'recorder_listener',
+            f'{node.get_name()}{LISTENER}',
+            namespace=node.get_namespace(),
             use_global_arguments=False,
             start_parameter_services=False,
             enable_rosout=False,

@@ -11,7 +11,7 @@ from rclpy.node import Node
 
 DISCOVERY_TIME = 1.0  # [s] for nodes that run already to answer a new one
 POSES = (OBJECT_POSE.short_name, PUSHER_POSE.short_name)
-ONLY_LISTEN = ('recorder', 'live')
+ONLY_LISTEN = ('recorder_listener', 'live_listener')
 """Names of nodes that subscribe to commands without executing them."""
 
 

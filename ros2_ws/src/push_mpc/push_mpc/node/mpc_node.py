@@ -238,8 +238,8 @@ class MpcNode(Node):  # type: ignore[misc]
             return f'stopped: {reason}; call {resume} first'
         if not self._controller.model_id:
             return f'waiting for the model: {self._model.problem}'
-        if self._settings.require_recorder and not self._recorder.is_recording:
-            return 'waiting for the recorder'
+        if self._settings.require_recorder and self._recorder.obstacle:
+            return self._recorder.obstacle
         rivals = self._graph.warning()
         if rivals:
             return f'{rivals}; stop it first'

@@ -27,6 +27,12 @@ class RecorderWatch:
         """Whether the recorder reported OK within FRESH."""
         return time.monotonic() - self._last_good < FRESH
 
+    @property
+    def obstacle(self) -> str:
+        """What the start waits for, with the recorder's own reason; empty while it records."""
+        reason = f': {self._message}' if self._message else ''
+        return '' if self.is_recording else f'waiting for the recorder{reason}'
+
     def failure(self) -> str:
         """Why nothing is recorded, for _GRACE now; empty while it is. Call it periodically."""
         if self.is_recording:

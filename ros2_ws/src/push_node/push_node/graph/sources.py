@@ -1,10 +1,15 @@
 """The nodes that publish poses and commands, of which a cell has one each."""
 
+import warnings
+
 from rclpy.node import Node
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from push_node.endpoints import GraphTopic
 from push_node.interface import OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD
+
+# discovery gives no depth of a publisher's history, for which rclpy warns
+warnings.filterwarnings('ignore', 'A zero depth with KEEP_LAST', UserWarning)
 
 SINGLE_SOURCE = (OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD)
 """Topics with one publisher in a cell."""
