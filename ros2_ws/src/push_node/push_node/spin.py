@@ -1,5 +1,6 @@
 """The main function of every node: start, spin, stop on SIGINT or SIGTERM, print an error."""
 
+import atexit
 import inspect
 import re
 import signal
@@ -81,7 +82,8 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
         return INTERRUPTED
     finally:
         rclpy.try_shutdown()
-        _ignore_signals()
+        # only then: processes started from here on would inherit it
+        atexit.register(_ignore_signals)
     return 0
 
 

@@ -4,8 +4,11 @@ import os
 import signal
 import time
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
+from push_core.common.errors import InputError
+from push_node.spin import run_node
 
 pytestmark = pytest.mark.processes
 
@@ -185,3 +188,12 @@ def test_ctrl_c_reaches_a_node_while_a_handler_of_a_library_is_installed(node) -
     process = node(tick=tick)
     output, _ = process.communicate(timeout=PATIENCE)
     assert (process.returncode, output) == (0, 'ready\ncleaned up\n')
+
+
+def _refused() -> NoReturn:
+    raise InputError('no such node')
+
+
+def test_a_node_that_ended_leaves_its_process_open_to_signals() -> None:
+    assert run_node(_refused, ['--ros-args']) == 2
+    assert signal.SIG_IGN not in map(signal.getsignal, (signal.SIGINT, signal.SIGTERM))
