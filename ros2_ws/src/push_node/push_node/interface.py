@@ -123,6 +123,14 @@ DIAGNOSTICS = GraphTopic(
     ('sim_node', 'gp_server', 'mpc_node', 'recorder'),
     'health of each node',
 )
+PARAMETER_EVENTS = GraphTopic(
+    '/parameter_events',
+    'rcl_interfaces/msg/ParameterEvent',
+    QoSProfile(depth=1000),
+    'on event',
+    ('sim_node', 'gp_server', 'mpc_node', 'recorder'),
+    'changes of parameters; every node publishes them by itself',
+)
 TRANSFORMS = GraphTopic(
     '/tf',
     'tf2_msgs/msg/TFMessage',
@@ -144,7 +152,7 @@ TOPICS = (
     *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD, NOMINAL_TRAJECTORY, CONTROLLER_STATE),
     *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, GROUND_TRUTH, RUN_END, SCENE_MARKERS),
     PLAN_MARKERS,
-    *(DIAGNOSTICS, TRANSFORMS, CLOCK),
+    *(DIAGNOSTICS, PARAMETER_EVENTS, TRANSFORMS, CLOCK),
 )
 
 RESET = GraphService(

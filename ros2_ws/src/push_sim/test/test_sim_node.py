@@ -20,7 +20,9 @@ from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds
 from push_sim.plant.plant import Plant
 from push_sim.settings.profiles import profile
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 pytestmark = pytest.mark.processes
@@ -53,6 +55,9 @@ class Client:
         self._reset = self.node.create_client(Reset, 'push_sim/reset')
         self._perturb = self.node.create_client(Perturb, 'push_sim/perturb')
         self._reset_to_plan = self.node.create_client(Trigger, 'push_sim/reset_to_plan')
+        self._set = self.node.create_client(
+            SetParametersAtomically, 'sim_node/set_parameters_atomically'
+        )
         self._plans = self.node.create_publisher(NominalTrajectory, 'nominal_trajectory', LATCHED)
 
     def _on_pose(self, message: PoseStamped) -> None:
@@ -85,6 +90,14 @@ class Client:
         before, after = self.truths[-2:]
         time = to_nanoseconds(after.header.stamp) - to_nanoseconds(before.header.stamp)
         return float(np.hypot(*np.subtract(after.tip, before.tip)) / max(time * 1e-9, 1e-3))
+
+    def set(self, **values: float | str) -> str:
+        """Sets parameters together; the reason of a refusal, else an empty string."""
+        parameters = [
+            Parameter(name, value=value).to_parameter_msg() for name, value in values.items()
+        ]
+        request = SetParametersAtomically.Request(parameters=parameters)
+        return self._call(self._set, request).result.reason
 
     def announce_plan(self, pose: Sequence[float], p_y: float) -> None:
         x, y, theta = ([value] for value in pose)
@@ -226,6 +239,23 @@ def test_services_refuse_what_cannot_be_done(client, lockstep) -> None:
     assert 'seed' in client.reset(seed=-1).message
     assert 'kind' in client.perturb(kind=9, magnitude=0.01, angle=0.0).message
     assert 'magnitude' in client.perturb(kind=0, magnitude=float('nan'), angle=0.0).message
+
+
+def test_noise_and_perturbation_change_while_it_runs_and_the_rest_does_not(
+    client, lockstep
+) -> None:
+    assert client.reset().success
+    client.answer = lambda pose: command(pose.header.stamp, (0.0, 0.0))
+    assert client.set(**{'sensor.position_noise': 0.01}) == ''
+    client.poses.clear()
+    client.wait(lambda: len(client.poses) >= 50)
+    assert np.std([pose.pose.position.x for pose in client.poses[10:]]) > 0.003
+    assert client.set(**{'sensor.position_noise': 0.0, 'perturbation.kind': 'normal'}) == ''
+    client.wait(lambda: len(client.perturbations) == 1)
+    refused = client.set(**{'sensor.position_noise': 0.0, 'sensor.dropout': 1.5})
+    assert 'parameter sensor.dropout is 1.5, must be between 0 and 0.9' in refused
+    assert 'read-only' in client.set(**{'world.friction_ground': 0.5})
+    assert client.set(**{'perturbation.kind': 'none'}) == ''
 
 
 def test_a_reset_puts_no_tip_into_the_object(client, lockstep) -> None:

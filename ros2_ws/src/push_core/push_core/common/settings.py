@@ -24,6 +24,11 @@ class Described:
     high: float
     choices: tuple[str, ...]
 
+    @property
+    def is_bounded(self) -> bool:
+        """Whether not every value is allowed."""
+        return bool(self.choices) or math.isfinite(self.low) or math.isfinite(self.high)
+
     def range_text(self) -> str:
         """Allowed values in words, for errors and documentation."""
         if self.choices:

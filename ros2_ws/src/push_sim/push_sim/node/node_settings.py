@@ -55,6 +55,13 @@ class NodeSettings(SimSettings):
     slider: Slider = nested(Slider(), _WORLDS_OWN)
 
 
+def is_changeable(name: str) -> bool:
+    """Whether a parameter can change while the plant runs, which has its latency built in."""
+    if name == 'sensor.latency':
+        return False
+    return name.startswith(('sensor.', 'perturbation.', 'command_'))
+
+
 def node_settings(profile_name: str) -> NodeSettings:
     """The node's parameters with the defaults of a profile.
 

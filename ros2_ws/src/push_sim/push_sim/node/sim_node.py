@@ -4,13 +4,13 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
-from push_core.common import InputError, PushError
+from push_core.common import InputError, PushError, flatten
 from push_msgs.msg import NominalTrajectory
 from push_msgs.srv import Perturb, Reset
 from push_node import interface
 from push_node.diagnostics import Reporter
 from push_node.graph import second_source
-from push_node.parameters import declared, override
+from push_node.parameters import declared, on_change, override
 from push_node.publishers import PUBLISHERS, GraphPublishers
 from push_node.realtime import enter_realtime
 from push_node.spin import run_node
@@ -26,7 +26,7 @@ from push_sim.node.conversions import (
     pose_message,
     position_message,
 )
-from push_sim.node.node_settings import NodeSettings, node_settings
+from push_sim.node.node_settings import NodeSettings, is_changeable, node_settings
 from push_sim.node.pace import LockstepPace, Pace, RealtimePace
 from push_sim.node.viewer_messages import Transforms, scene_markers
 from push_sim.plant import Observation, Perturbation, PerturbationKind, Plant
@@ -47,9 +47,9 @@ class SimNode(Node):  # type: ignore[misc]
 
     def __init__(self) -> None:
         super().__init__('sim_node', automatically_declare_parameters_from_overrides=True)
-        self._settings: NodeSettings = declared(
-            self, node_settings(override(self, 'profile', 'irb120'))
-        )
+        defaults = node_settings(override(self, 'profile', 'irb120'))
+        changeable = [name for name in flatten(defaults) if is_changeable(name)]
+        self._settings: NodeSettings = declared(self, defaults, changeable)
         self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
         self._plan: NominalTrajectory | None = None
@@ -58,6 +58,7 @@ class SimNode(Node):  # type: ignore[misc]
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._outputs, self._publish)
         self._pace.restart(self._start())
+        on_change(self, self._settings, self._plant.change)
         interface.PUSHER_VELOCITY_CMD.subscription(self, self._on_command)
         interface.NOMINAL_TRAJECTORY.subscription(self, self._on_plan)
         interface.RESET.service(self, self._on_reset)

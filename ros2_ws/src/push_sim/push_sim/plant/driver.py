@@ -20,9 +20,13 @@ class Driver:
             loss: fraction of commands that are lost before they arrive.
         """
         self._actuator = Actuator(settings)
+        self.change(timeout, loss)
+        self.reset(np.random.default_rng())
+
+    def change(self, timeout: float, loss: float) -> None:
+        """Uses another timeout [s] and fraction of lost commands from now on."""
         self._timeout = timeout
         self._loss = loss
-        self.reset(np.random.default_rng())
 
     def reset(self, random: np.random.Generator) -> None:
         """Puts the tip at rest and drops all commands; losses are drawn from `random`."""

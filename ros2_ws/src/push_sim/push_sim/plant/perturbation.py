@@ -92,9 +92,13 @@ class Schedule:
     """Decides when the perturbation of the settings is due."""
 
     def __init__(self, settings: PerturbationSettings) -> None:
-        self._delay = settings.time
-        self._perturbation = _from_settings(settings)
+        self.change(settings)
         self.reset()
+
+    def change(self, settings: PerturbationSettings) -> None:
+        """Schedules another perturbation; one whose time is over already is due at once."""
+        self._delay = settings.time
+        self._perturbation = self._pending = _from_settings(settings)
 
     def reset(self) -> None:
         """Starts again: the perturbation has not happened yet."""

@@ -1,7 +1,7 @@
 """The plant: world, robot, cameras and perturbations, one period at a time."""
 
 import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -98,6 +98,28 @@ class Plant:
         if any(velocity):
             self._schedule.motion_commanded(arrival)
         self._driver.command(velocity, arrival)
+
+    def change(self, settings: SimSettings) -> None:
+        """Uses other settings of sensor, perturbation and command losses from now on.
+
+        Raises:
+            InputError: another setting differs, for which a new plant has to be made.
+        """
+        old, slider = self._settings
+        kept = replace(
+            settings,
+            sensor=old.sensor,
+            perturbation=old.perturbation,
+            command_timeout=old.command_timeout,
+            command_loss=old.command_loss,
+        )
+        if kept != old or settings.sensor.latency != old.sensor.latency:
+            raise InputError('only sensor, perturbation and command losses of a plant can change')
+        self._settings = settings, slider
+        self._sensor.change(settings.sensor)
+        self._driver.change(settings.command_timeout, settings.command_loss)
+        if settings.perturbation != old.perturbation:
+            self._schedule.change(settings.perturbation)
 
     def step(self) -> Observation | None:
         """Advances one period; returns the picture published then, None if it was lost."""

@@ -51,13 +51,17 @@ class Sensor:
     """Takes pictures and publishes each after its latency."""
 
     def __init__(self, settings: SensorSettings) -> None:
+        self.change(settings)
+        self.reset(np.random.default_rng())
+
+    def change(self, settings: SensorSettings) -> None:
+        """Uses other settings from the next picture on; the latency must be the same."""
         self._settings = settings
         self._deviation = np.array(
             [settings.position_noise, settings.position_noise, settings.angle_noise]
         )
         self._bias = np.array([0.0, 0.0, settings.angle_bias])
         self._tip_bias = np.array([settings.tip_bias_x, settings.tip_bias_y])
-        self.reset(np.random.default_rng())
 
     def reset(self, random: np.random.Generator) -> None:
         """Drops all pictures; pose noise is drawn from `random`, the rest from its children."""
