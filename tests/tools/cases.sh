@@ -36,6 +36,33 @@ bag_types_not_installed() {
     has '^2721 messages on 7 topics replayed' && has '^status 0'
 }
 
+cell_label_of_profile() {
+  has '^run .* ideal, inprocess, seed 7' && has '^profile: ideal' && has '^seed: 7' &&
+    has 'actuator.dead_time: 0.0' && lacks 'irb120'
+}
+
+cell_parameter_files() {
+  counts 4 '^completed +yes' && has '^out/.*_line_analytical_80mms' && lacks '^cell:'
+}
+
+cell_start_is_ignored() {
+  counts 1 '^tracking error' && counts 3 '^cell: parameter start\..* would have no effect'
+}
+
+cell_tip_radius_zero() {
+  has '^completed +yes' && has 'tip_radius=0' && has '^status 0' && lacks 'Traceback'
+}
+
+ctrl_c_in_the_solver() {
+  counts 20 "status 130 after .*'cell: interrupted'. False"
+}
+
+ctrl_c_while_importing() {
+  has "^.'push_bringup', 'cell'. 130 .('cell: interrupted')?.$" &&
+    has "^.'push_bag', 'info'. 130 .('info: interrupted')?.$" &&
+    has "^.'push_mpc', 'mpc_node'. 130 ..$" && lacks 'Traceback|Error'
+}
+
 import_csv_runs() {
   has 'r_still.csv: the (tip|object) does not move' && has 'r_gap.csv, line 1002: .* missing' &&
     has 'r_one.csv, line 2: is the only row' && has '^completed +yes' &&
@@ -75,6 +102,12 @@ mcap_unnumbered_lost() {
   has 'how many were lost is not known' && lacks '^0 of 40 messages lost'
 }
 
+no_home() {
+  has '^cell: .*HOME is not set: set ROS_LOG_DIR' && has '^cell: .*/proc/1.*: set ROS_LOG_DIR' &&
+    has "^cell: ROS_DOMAIN_ID is 'abc', must be a whole number" &&
+    has '^replay: .*HOME is not set: set ROS_LOG_DIR' && has '^0 of 200 messages lost'
+}
+
 score_none_nan() {
   has '^tracking error +mean 0\.' && has '2 of 648 on object_pose: not a number' && has '^status 0'
 }
@@ -86,6 +119,19 @@ score_none_renamed() {
 
 score_zero_quaternion() {
   has '^heading error +none: no orientation .* unit quaternion' && has '^heading error +mean 0\.08'
+}
+
+terminal_without_utf8() {
+  has '^usage: push_gp curve' && has '^usage: push_gp evaluate' &&
+    has '^info: standard output is closed' && lacks 'Error'
+}
+
+track_csv_forms() {
+  counts 5 '^completed +yes' && lacks '^cell:'
+}
+
+use_sim_time_as_number() {
+  has '^mpc_node: parameter use_sim_time takes bool, not 1'
 }
 
 failed=0
