@@ -21,7 +21,9 @@ from push_node import interface, qos
 from push_node.ask import ask
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds, to_stamp
+from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
@@ -68,6 +70,9 @@ class Cell:
             name: node.create_client(Trigger, f'push_mpc/{name}')
             for name in ('start', 'stop', 'resume')
         }
+        self._set = node.create_client(
+            SetParametersAtomically, 'mpc_node/set_parameters_atomically'
+        )
         node.create_timer(0.01, self._expose)
         node.create_timer(0.2, self._report)
 
@@ -121,6 +126,14 @@ class Cell:
 
     def call_until(self, name: str, accepted: Callable[[Trigger.Response], bool]) -> None:
         self.wait(lambda: accepted(self.call(name)))
+
+    def set(self, **values: float) -> str:
+        """Sets parameters together; the reason of a refusal, else an empty string."""
+        parameters = [Parameter(name, value=values[name]).to_parameter_msg() for name in values]
+        request = SetParametersAtomically.Request(parameters=parameters)
+        answer = ask(self._set, request, self.happens)
+        assert answer is not None, 'no answer'
+        return str(answer.result.reason)
 
     def mode(self) -> int:
         return self.states[-1].mode if self.states else ControllerState.IDLE
@@ -447,6 +460,21 @@ def test_a_node_in_lockstep_says_that_there_is_no_clock(cell, started) -> None:
     cell.announce_model()
     cell.poses_on = True
     cell.call_until('start', lambda answer: 'nothing on /clock' in answer.message)
+
+
+def test_what_neither_plan_nor_solver_is_made_of_changes_during_a_run(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    assert cell.set(**{'recontact.gap': 0.004, 'recontact.speed': 0.1}) == ''
+    assert cell.set(disturbance_length=0.0) == ''
+    refused = cell.set(**{'recontact.gap': 0.003, 'recontact.speed': 9.0})
+    assert 'parameter recontact.speed is 9, must be between 0.02 and 2 m/s' in refused
+    assert 'read-only' in cell.set(**{'weights.contact': 100.0})
+    # a shorter patience with missing poses takes effect at once
+    assert cell.set(pose_loss=0.2) == ''
+    assert cell.mode() == ControllerState.TRACKING
+    cell.poses_on = False
+    cell.wait(lambda: cell.mode() == ControllerState.STOPPED)
 
 
 def test_a_second_source_of_poses_is_named_and_stops_the_run(cell, started) -> None:

@@ -25,6 +25,7 @@ class DisturbanceEstimator:
 
     Attributes:
         rate: error twist in the body frame per metre of travel (3,) [1, 1, rad/m].
+        length: filter constant [m of travel]; 0 stops the estimation.
     """
 
     def __init__(self, length: float, slider: Slider) -> None:
@@ -35,7 +36,7 @@ class DisturbanceEstimator:
             slider: geometry of slider and tip.
         """
         self.rate = np.zeros(3)
-        self._length = length
+        self.length = length
         self._slider = slider
         self._seen: tuple[Array, Array] | None = None
 
@@ -47,13 +48,13 @@ class DisturbanceEstimator:
     def observe(self, table: Table, object_pose: Array, tip: Array) -> None:
         """Updates the estimate with a measured object pose (3,) and tip position (2,)."""
         before, self._seen = self._seen, (object_pose, tip)
-        if before is None or self._length == 0.0:
+        if before is None or self.length == 0.0:
             return
         travel, unexplained = self._unexplained(table, *before, object_pose, tip)
         x, y, turn = unexplained
         if travel < _LEAST_TRAVEL or math.hypot(x, y) > _JUMP or abs(turn) > _JUMP_ANGLE:
             return
-        share = 1.0 / max(self._length, travel)
+        share = 1.0 / max(self.length, travel)
         self.rate = np.clip(
             self.rate + share * (np.array(unexplained) - travel * self.rate), -_LARGEST, _LARGEST
         )

@@ -85,6 +85,16 @@ class Controller:
         if first:
             self._solve(model.plan.state[0], 0.0)
 
+    def change(self, settings: ControllerSettings) -> None:
+        """Uses other recontact settings and filter length from the next tick on.
+
+        Nothing else may differ: the solver is set up for it.
+        """
+        self.settings = settings
+        self._disturbance.length = settings.disturbance_length
+        if settings.disturbance_length == 0.0:
+            self._disturbance.reset()
+
     def arm(self) -> None:
         """Holds the tip at rest until enough poses have arrived, then tracks the plan."""
         self.mode = Mode.ARMED

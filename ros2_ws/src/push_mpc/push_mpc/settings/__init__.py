@@ -2,12 +2,13 @@
 
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
-from push_mpc.settings.node_settings import MpcSettings, mpc_settings
+from push_mpc.settings.node_settings import CHANGEABLE, MpcSettings, mpc_settings
 from push_mpc.settings.pose_gate_settings import PoseGateSettings
 from push_mpc.settings.presets import PRESETS
 from push_mpc.settings.recontact import approach, departure, is_apart
 
 __all__ = [
+    'CHANGEABLE',
     'CONTROLLERS',
     'PRESETS',
     'ControllerSettings',

@@ -55,6 +55,13 @@ class MpcSettings(ControllerSettings):
         validate(self)
 
 
+CHANGEABLE = (
+    *('recontact.gap', 'recontact.speed', 'disturbance_length'),
+    *('pose_timeout', 'pose_loss', 'require_recorder'),
+)
+"""Parameters that may change during a run: neither plan nor solver is made of them."""
+
+
 def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
     """Defaults for a robot profile and a preset; an unknown name is left to validation."""
     actuator = ACTUATORS.get(profile, MpcSettings().actuator)
