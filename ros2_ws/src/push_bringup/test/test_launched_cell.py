@@ -121,3 +121,11 @@ def test_rviz_shows_topics_of_the_cell() -> None:
         if display['Class'] == 'rviz_default_plugins/MarkerArray'
     }
     assert arrays == {topic.name for topic in TOPICS if topic.type_name.endswith('/MarkerArray')}
+
+
+def test_a_parameter_file_counts_where_an_argument_has_its_default(launched, tmp_path) -> None:
+    mine = tmp_path / 'mine.yaml'
+    mine.write_text('/**:\n  ros__parameters: {speed: 5e-2, seed: 9, profile: ideal}\n')
+    own = parameters(launched(params_file=str(mine), seed='3'))
+    assert (own['mpc_node']['speed'], own['sim_node']['seed']) == (0.05, 3)
+    assert own['sim_node']['profile'] == own['mpc_node']['profile'] == 'ideal'

@@ -54,6 +54,9 @@ ARGUMENTS = (
 )
 
 
+DEFAULTS = {argument.name: argument.default for argument in ARGUMENTS}
+
+
 def check_known(given: Iterable[str]) -> None:
     """Checks the words of a command line.
 
@@ -70,12 +73,14 @@ def check_known(given: Iterable[str]) -> None:
             raise InputError(f'unknown argument {name!r}; known: {", ".join(known)}')
 
 
-def number(values: Mapping[str, str], name: str, kind: type[int] | type[float]) -> float:
-    """The value of an argument as a number.
+def number(values: Mapping[str, str], name: str, kind: type[int] | type[float]) -> float | None:
+    """The value of an argument as a number; None if it is not given.
 
     Raises:
         InputError: it is none.
     """
+    if name not in values:
+        return None
     try:
         return kind(values[name])
     except ValueError:

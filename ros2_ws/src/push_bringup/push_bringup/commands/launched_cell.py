@@ -14,7 +14,7 @@ from push_mpc.plan import planned
 from push_node.interface import CLOCK
 
 from push_bringup.commands.cell_options import requested
-from push_bringup.commands.launch_arguments import number
+from push_bringup.commands.launch_arguments import DEFAULTS, number
 from push_bringup.setup import (
     PARAMETERS_FILE,
     CellParameters,
@@ -93,17 +93,19 @@ def launched_cell(values: Mapping[str, str]) -> LaunchedCell:
 
 
 def _request(values: Mapping[str, str], recorded: bool) -> Request:
+    # a default of the launch file must not override the parameter file
+    chosen = {name: value for name, value in values.items() if value != DEFAULTS[name]}
     options = argparse.Namespace(
-        track=values['track'],
-        speed=number(values, 'speed', float),
-        controller=values['controller'],
+        track=chosen.get('track'),
+        speed=number(chosen, 'speed', float),
+        controller=chosen.get('controller'),
         model=Path(values['model']) if values['model'] else None,
-        profile=values['profile'],
-        preset=values['preset'],
-        perturb='none',
-        mode=values['mode'],
-        laps=number(values, 'laps', int),
-        seed=number(values, 'seed', int),
+        profile=chosen.get('profile'),
+        preset=chosen.get('preset'),
+        perturb=None,
+        mode=chosen.get('mode'),
+        laps=number(chosen, 'laps', int),
+        seed=number(chosen, 'seed', int),
         namespace=values['namespace'],
         params=Path(values['params_file']) if values['params_file'] else None,
         param=[] if recorded else ['mpc_node.require_recorder:=false'],
