@@ -11,7 +11,6 @@ from types import FrameType
 
 import rclpy
 from push_core.common import (
-    INTERRUPTED,
     InputError,
     InterruptsHeld,
     PushError,
@@ -51,8 +50,8 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         argv: ROS arguments; default: those of the process.
 
     Returns:
-        Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong, 130
-        interrupted before the node was made.
+        Exit status: 0 stopped on request, at whatever moment: launch takes any other for a crash;
+        1 the node failed, 2 an argument was wrong.
     """
     # held for the threads of the middleware too: OSQP's handler would take a Ctrl-C there
     with InterruptsHeld():
@@ -66,7 +65,7 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
             print(f'{inspect.getdoc(make_node)}\n{_HELP}', end='')  # noqa: T201
             return 0
         if take_held_interrupt():
-            return INTERRUPTED
+            return 0
         init_ros(arguments)
         node = _made(make_node)
         try:
@@ -79,7 +78,7 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
         sys.stderr.write(f'{_name(make_node)}: {describe(error)}\n')
         return error.status if isinstance(error, PushError) else 1
     except KeyboardInterrupt:  # of a long step while the node was made
-        return INTERRUPTED
+        return 0
     finally:
         rclpy.try_shutdown()
         # only then: processes started from here on would inherit it

@@ -14,8 +14,8 @@ HEAD = """# Parameters
 Every parameter of every node, with its default in the `irb120` profile. Set one with
 `cell -p NAME:=VALUE` (or `NODE.NAME:=VALUE` where several nodes share the name), in a parameter
 file, or with `--ros-args -p NAME:=VALUE` on a node. They are read at the start, which an
-unknown name or a value out of range fails; docs/operating.md names those that change during a run. Made by
-`ros2 run push_bringup parameters`.
+unknown name or a value out of range fails; docs/operating.md names those that change during a
+run. Made by `ros2 run push_bringup parameters`.
 """
 
 
