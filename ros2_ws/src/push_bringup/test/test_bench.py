@@ -10,19 +10,27 @@ from push_bringup.bench.paper_page import paper_page
 from push_bringup.bench.rows import (
     TIMES,
     AblationRow,
+    MismatchRow,
     PaperRow,
     RealTimeRow,
     SizeRow,
     experiment_json,
     times_json,
 )
-from push_bringup.bench.tables import ablation_rows, paper_rows, real_time_rows, time_ranges
+from push_bringup.bench.tables import (
+    ablation_rows,
+    mismatch_rows,
+    paper_rows,
+    real_time_rows,
+    time_ranges,
+)
 from push_bringup.bench.training_size import TrainingSet, chosen_rows
 from push_bringup.bench.training_size_page import training_size_page
 from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
 from push_bringup.experiment.lap import Lap, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
+from push_bringup.mismatch.plants import PLANTS, Plant
 from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
@@ -121,6 +129,8 @@ def test_nested_draws_of_one_seed_contain_each_other(pushes) -> None:
         (['data', '--data', 'none.csv'], 'none.csv'),
         (['table', '--html', 'none/page.html'], 'none'),
         (['stopping', '--runs', '0'], '--runs'),
+        (['mismatch', '--seeds', '0'], '--seeds'),
+        (['mismatch', '--rows', 'moon'], 'moon'),
     ],
 )
 def test_a_wrong_command_is_one_line_and_status_2(
@@ -177,3 +187,55 @@ def test_an_ablation_names_laps_that_were_not_completed_or_never_tracked() -> No
 def test_stopping_is_stated_as_median_and_largest() -> None:
     values = stopping.text([0.5, 0.75, 2.0])
     assert 'median 0.75 s, largest 2.00 s of 3 runs' in values
+
+
+def test_a_mismatch_tells_the_error_of_the_laps_that_were_completed() -> None:
+    laps = (with_error(1.0), with_error(3.0), with_error(90.0, completed=False))
+    rows = [
+        MismatchRow('rim', 'pressure at the rim', LINE, controller, laps[:count]).as_json()
+        for controller, count in (('gp', 3), ('analytical', 2))
+    ]
+    assert (rows[0]['laps_mm'], rows[0]['completed'], rows[0]['learn']) == ([1.0], 2, False)
+    assert rows[0]['stop_reasons'] == ['left the face']
+    table = mismatch_rows({'rows': rows})
+    assert (
+        '| rim | pressure at the rim | line 150 mm/s | 1.00 mm (2 of 3 laps) | 1.00 mm |' in table
+    )
+    lost = MismatchRow('rim', 'pressure at the rim', LINE, 'gp', laps[2:]).as_json()
+    assert lost['laps_mm'] == [None]
+    assert 'lost (0 of 1 laps)' in mismatch_rows({'rows': [lost]})
+
+
+def test_every_plant_is_a_cell_and_each_is_another(tmp_path) -> None:
+    jobs = [
+        LapJob(plant.experiment, 'analytical', 'analytical', 'irb120', 0, plant.overrides)
+        for plant in PLANTS.values()
+    ]
+    assert len({job.key for job in jobs}) == len(PLANTS)
+
+
+def test_the_bench_pushes_its_rows_and_prints_them(tmp_path, monkeypatch, capsys) -> None:
+    monkeypatch.setitem(PLANTS, 'home', Plant('nothing', {'profile': 'ideal'}, LINE))
+    page, options = tmp_path / 'page.html', ['--rows', 'home', '--controllers', 'analytical']
+    work = ['--jobs', '1', '--laps-file', str(tmp_path / 'laps.jsonl'), '--html', str(page)]
+    assert bench.main(['mismatch', *options, '--seeds', '1', *work, '--json']) == 0
+    (row,) = json.loads(capsys.readouterr().out)['rows']
+    assert (row['plant'], row['completed']) == ('home', 1)
+    assert 0.0 < row['laps_mm'][0] < 0.2
+    assert 'line 150 mm/s' in page.read_text()
+
+
+def test_three_times_the_friction_that_the_model_has_learned_does_not_end_the_lap(
+    model_file,
+) -> None:
+    lap = pushed(
+        LapJob(
+            PLANTS['friction_0.6'].experiment,
+            'gp',
+            str(model_file),
+            'irb120',
+            0,
+            PLANTS['friction_0.6'].overrides,
+        )
+    )
+    assert lap.completed, lap.stop_reason

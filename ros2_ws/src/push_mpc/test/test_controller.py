@@ -104,11 +104,19 @@ def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
 
 
 def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
-    nothing = Move(np.full(2, np.nan), 3, 7, usable=False, states=np.empty((36, 4)))
+    nothing = Move(
+        np.full(2, np.nan),
+        3,
+        7,
+        fault='v_n [m/s] in step 1 of 20 is violated by 0.1',
+        states=np.empty((36, 4)),
+    )
     monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
     tick = tracking.tick()
     assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)
-    assert tracking.controller.stop_reason == 'the solver returned no usable input (status 3)'
+    assert tracking.controller.stop_reason == (
+        'the solver found no usable input (status 3): v_n [m/s] in step 1 of 20 is violated by 0.1'
+    )
 
 
 def test_every_command_keeps_the_limits(tracking) -> None:

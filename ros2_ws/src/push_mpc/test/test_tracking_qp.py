@@ -4,13 +4,15 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX, InputSpace, Stages
-from push_mpc.qp.tracking_qp import OSQP_SETTINGS, TrackingQP
+from push_mpc.qp.tracking_qp import TrackingQP
 from push_sim.settings.plant_settings import PerturbationKind
+from scipy.optimize import linprog
 
 NU = 2
 ITERATION_LIMIT = 7  # a status of OSQP
-SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2))
+SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2), ('v_n [m/s]', 'v_t [m/s]'))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
 CHANGE_WEIGHTS = np.array([2.0, 2.0])
@@ -117,11 +119,77 @@ def test_solving_again_starts_from_the_solution(problem) -> None:
     assert np.allclose(solved(problem, times=2).inputs, solved(problem).inputs, atol=1e-6)
 
 
-def test_a_problem_without_a_solution_is_not_usable_unless_its_bounds_are_opened(problem) -> None:
-    far_off = np.full((6, 3), [0.5, 0.0, 0.0]), np.full((6, 3), [0.6, 0.0, 0.0])
-    impossible = (*problem[:4], far_off, problem[5])
-    assert not solved(impossible).usable
-    assert solved(impossible, widening=0.6).usable
+@pytest.fixture
+def impossible(problem):
+    """The same problem with p_y bounded to where no input brings it."""
+    far_off = np.full((6, 3), [0.02, -0.1, -0.1]), np.full((6, 3), [0.03, 0.1, 0.1])
+    return (*problem[:4], far_off, problem[5])
+
+
+def least_violation(problem, unrolled) -> tuple[np.ndarray, float]:
+    """Sum of the violations of the bounds on p_y [m] of the inputs, and the least possible."""
+    transition, effect, drift, _, (low, high), start = problem
+    free, forced = unrolled(transition, effect, drift @ [1.0, *DISTURBANCE], start)
+    contact, rows = free[3::NX], forced[3::NX]
+    steps, count = rows.shape
+    found = linprog(
+        np.concatenate([np.zeros(count), np.ones(steps)]),
+        A_ub=np.block([[rows, -np.eye(steps)], [-rows, -np.eye(steps)]]),
+        b_ub=np.concatenate([high[:, 0] - contact, contact - low[:, 0]]),
+        bounds=[*zip(low[:, 1:].ravel(), high[:, 1:].ravel(), strict=True), *[(0, None)] * steps],
+    )
+    reached = contact + rows @ solved(problem).inputs.ravel()
+    violation = np.maximum(low[:, 0] - reached, reached - high[:, 0]).clip(min=0.0).sum()
+    return violation, found.fun
+
+
+def test_bounds_on_p_y_that_cannot_be_kept_are_violated_as_little_as_possible(
+    impossible, unrolled
+) -> None:
+    violation, least = least_violation(impossible, unrolled)
+    assert least > 1e-3, 'the bounds can be kept'
+    assert solved(impossible).usable
+    assert violation == pytest.approx(least, abs=2e-5)
+
+
+def test_inputs_keep_their_bounds_where_p_y_cannot(impossible) -> None:
+    assert np.abs(solved(impossible).inputs).max() <= 0.1 + 1e-5
+
+
+def test_opened_bounds_need_no_violation(impossible) -> None:
+    assert solved(impossible, widening=0.1).iterations < solved(impossible).iterations
+
+
+def test_where_the_bounds_can_be_kept_the_relaxed_problem_has_the_same_solution(
+    recorded, tracking
+) -> None:
+    (qp,) = tracking.controller._steering.solvers
+    exact = qp.problem
+    first = slice(exact.states, exact.states + NU)
+    qp._relaxed.solve(exact.matrix.data, exact.linear, exact.low, exact.high)
+    relaxed = qp._relaxed.solve(exact.matrix.data, exact.linear, exact.low, exact.high)
+    assert relaxed.info.status_val == 1
+    # hundredths of the solver's unit of 1 cm/s
+    assert np.allclose(relaxed.x[first], recorded[-1][1].inputs[0] / SPACE.scale, atol=2e-2)
+    assert np.allclose(relaxed.x[exact.cost.size :], 0.0, atol=1e-3)
+
+
+def test_a_solution_that_is_refused_names_the_constraint_that_it_violates_most(
+    impossible, monkeypatch
+) -> None:
+    monkeypatch.setitem(OSQP_SETTINGS, 'max_iter', 5)
+    qp = TrackingQP(6, SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
+    made = stages_of(impossible)
+    qp.prepare(made, np.arange(6), made)
+    assert not qp.solve(impossible[5], 0.0, DISTURBANCE, BEFORE).usable
+    qp._variables[:] = 0.0
+    qp._low[:28] = qp._high[:28] = 0.0
+    qp._variables[28 + 2 * NU] = 15.0
+    assert qp.largest_violation() == (
+        'v_n [m/s] in step 3 of 6 is violated by 0.05, p_y is 0.02 m beyond its bounds'
+    )
+    qp._variables[0] = np.nan
+    assert qp.largest_violation() == 'its solution is not a number'
 
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:

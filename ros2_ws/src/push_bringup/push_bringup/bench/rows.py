@@ -103,6 +103,45 @@ class AblationRow:
 
 
 @dataclass(frozen=True)
+class MismatchRow:
+    """`bench mismatch`: one plant with one controller.
+
+    Attributes:
+        plant: its name.
+        text: how it differs from what the controller assumes.
+        experiment: what was pushed on it.
+        controller: its name.
+        laps: one for each seed.
+    """
+
+    plant: str
+    text: str
+    experiment: Experiment
+    controller: str
+    laps: tuple[Lap, ...]
+
+    @property
+    def completed(self) -> int:
+        """Number of completed laps."""
+        return sum(lap.completed for lap in self.laps)
+
+    def as_json(self) -> dict[str, Any]:
+        """The row as `--json` prints it; the error is the median of the completed laps."""
+        errors = [lap.truth_mean_mm for lap in self.laps if lap.completed]
+        return {
+            'plant': self.plant,
+            'text': self.text,
+            **experiment_json(self.experiment),
+            'controller': self.controller,
+            'learn': False,
+            'seeds': len(self.laps),
+            'completed': self.completed,
+            'laps_mm': [median(errors) if errors else None],
+            'stop_reasons': [lap.stop_reason for lap in self.laps if not lap.completed],
+        }
+
+
+@dataclass(frozen=True)
 class SolverRow:
     """`bench timing`: one solver on the QPs of all ticks.
 

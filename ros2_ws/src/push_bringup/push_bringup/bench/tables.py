@@ -83,6 +83,35 @@ def _ablation_cell(error: float | None, completed: int, seeds: int) -> str:
     return text if completed == seeds else f'{text} ({completed} of {seeds} laps)'
 
 
+def mismatch_rows(results: BenchResults) -> str:
+    """The table of `bench mismatch`: a line for each plant, a column for each controller."""
+    by_plant: dict[str, dict[str, Mapping[str, Any]]] = {}
+    for row in results['rows']:
+        by_plant.setdefault(row['plant'], {})[row['controller']] = row
+    controllers = list(next(iter(by_plant.values())))
+    return markdown_table(
+        ('row', 'plant differs by', 'pushed', *controllers),
+        (
+            (
+                plant,
+                rows[controllers[0]]['text'],
+                experiment_name(rows[controllers[0]]),
+                *(_mismatch_cell(rows[controller]) for controller in controllers),
+            )
+            for plant, rows in by_plant.items()
+        ),
+    )
+
+
+def _mismatch_cell(row: Mapping[str, Any]) -> str:
+    if row['completed'] == row['seeds']:
+        return _millimetres(row['laps_mm'][0])
+    count = f'{row["completed"]} of {row["seeds"]} laps'
+    return (
+        f'{_millimetres(row["laps_mm"][0])} ({count})' if row['completed'] else f'lost ({count})'
+    )
+
+
 def solver_rows(results: BenchResults) -> str:
     """The table of `bench timing`."""
     return markdown_table(
@@ -161,6 +190,7 @@ TABLES: Mapping[str, Callable[[BenchResults], str]] = {
     'table': paper_rows,
     'data': size_rows,
     'ablation': ablation_rows,
+    'mismatch': mismatch_rows,
     'timing': solver_rows,
     'realtime': real_time_rows,
     'model': library_rows,

@@ -51,6 +51,11 @@ def _ablation(_section: str, results: Mapping[str, Any]) -> Named:
             yield f'{variant}_{_experiment(experiment)}_completed', completed
 
 
+def _mismatch(section: str, results: Mapping[str, Any]) -> Named:
+    for row in results['rows']:
+        yield f'{section}_{_word(row["plant"])}_{row["controller"]}', row['laps_mm'][0]
+
+
 def _solvers(section: str, results: Mapping[str, Any]) -> Named:
     for row in results['solvers']:
         for key in ('p50', 'p99', 'max'):
@@ -88,6 +93,7 @@ _FIGURES = {
     'measured': _sizes,
     'training_size': _sizes,
     'ablation': _ablation,
+    'mismatch': _mismatch,
     'solver_gp': _solvers,
     'solver_analytical': _solvers,
     'real_time': _real_time,

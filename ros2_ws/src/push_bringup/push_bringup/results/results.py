@@ -19,8 +19,8 @@ from push_bringup.results.results_file import provenance, read_results, write_re
 from push_bringup.results.sections import SECTIONS, Section
 
 EPILOG = """Example: bench results --measured square_4mm_pushes.csv
-About an hour on two cores, its last 20 minutes in real time: nothing else should run then. It can
-be interrupted: laps of the same code in runs/bench_results are not pushed again.
+A little more than an hour on two cores, its last 20 minutes in real time: nothing else should run
+then. It can be interrupted: laps of the same code in runs/bench_results are not pushed again.
 results.json is written next to the page after each section; sections that are not run stay as
 they are. Then the page and the documents that quote figures are written from it (docs/figures.md).
 """

@@ -73,6 +73,14 @@ SECTIONS = (
         ('--seeds', '1'),
     ),
     Section(
+        'mismatch',
+        'Plants that the controller does not know',
+        'Errors against the true pose, medians of the completed laps, profile `irb120`, one set '
+        'of parameters and one model for all plants; nothing is learned on the job.',
+        'mismatch',
+        ('--seeds', '1'),
+    ),
+    Section(
         'solver_gp',
         'The QP solver: GP controller',
         'All QPs of a lap with perturbations: update and solve, CPU time of one thread.',

@@ -67,7 +67,7 @@ class Controller:
 
     @property
     def problems(self) -> tuple[Problem, ...]:
-        """The QPs of the latest tick, for comparison with other solvers."""
+        """The QPs of the latest tick; after a stop by the solver those that it did not solve."""
         return tuple(solver.problem for solver in self._steering.solvers)
 
     def prepare_model(self, table: Table, model_id: str) -> PreparedModel:
@@ -241,7 +241,7 @@ class Controller:
                 rotation(state[2]).T @ self._sent,
             )
         if not move.usable:
-            self.stop(f'the solver returned no usable input (status {move.status})')
+            self.stop(f'the solver found no usable input (status {move.status}): {move.fault}')
         return Tick(
             self.mode,
             _STILL,

@@ -2,9 +2,10 @@
 
 from push_mpc.qp.force_steering import ForceSteering
 from push_mpc.qp.planned_states import PlannedStates
+from push_mpc.qp.problem import Problem
+from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX
 from push_mpc.qp.steering import LinearisedPlan, Steering
-from push_mpc.qp.tracking_qp import OSQP_SETTINGS, Problem
 from push_mpc.qp.velocity_steering import VelocitySteering
 
 __all__ = [

@@ -15,9 +15,10 @@ from push_core.physics import ContactMode, LimitSurface, Slider
 from push_mpc.motion import ContactForce, TravelModel
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
+from push_mpc.qp.solution import Solution
 from push_mpc.qp.stages import InputSpace, Stages
 from push_mpc.qp.steering import LinearisedPlan, Move
-from push_mpc.qp.tracking_qp import Solution, TrackingQP
+from push_mpc.qp.tracking_qp import TrackingQP
 from push_mpc.settings import ControllerSettings
 
 FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
@@ -80,12 +81,14 @@ class ForceSteering:
         nominal = linearised.plan.at(time)[1]
         before = self._motion.input_of(state[3], *sent.tolist()) - nominal
         solutions = [each.solve(deviation, widening, disturbance, before) for each in self.solvers]
-        self.mode, best = min(zip(FAMILY, solutions, strict=True), key=_rank)
+        index, best = min(enumerate(solutions), key=_rank)
+        self.mode = FAMILY[index]
         velocity = self._within_limit(
             self._motion.tip_velocity(state[3], nominal + best.inputs[0])
         )
         iterations = sum(solution.iterations for solution in solutions)
-        return Move(velocity, best.status, iterations, best.usable, best.states)
+        fault = '' if best.usable else self.solvers[index].largest_violation()
+        return Move(velocity, best.status, iterations, fault, best.states)
 
     def _within_limit(self, velocity: Array) -> Array:
         """A tip velocity (2,) slowed down to the largest v_n.
@@ -123,10 +126,11 @@ def _space(slider: Slider) -> InputSpace:
         np.array([force, force, _SPEED]),
         _limited(slider),
         np.array([force, force, force, _SPEED]),
+        ('f_n', 'f_t - mu f_n', 'f_t + mu f_n', 'slip [m/s]'),
     )
 
 
-def _rank(candidate: tuple[ContactMode, Solution]) -> tuple[bool, bool, float]:
+def _rank(candidate: tuple[int, Solution]) -> tuple[bool, bool, float]:
     """Sorts solutions: usable ones first, then solved ones, then by cost."""
     solution = candidate[1]
     return not solution.usable, solution.status != _SOLVED, solution.cost

@@ -29,11 +29,13 @@ class InputSpace:
         limited: rows are the linear combinations of inputs that have bounds (k, m), in the
             solver's units.
         limited_scale: the solver's unit of each combination (k,).
+        names: of the combinations, with their units.
     """
 
     scale: Array
     limited: Array
     limited_scale: Array
+    names: tuple[str, ...]
 
     @property
     def size(self) -> int:

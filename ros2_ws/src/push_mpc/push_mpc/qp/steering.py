@@ -37,15 +37,20 @@ class Move:
         velocity: of the tip in the body frame (2,) [m/s].
         status: of the solver, 1 = solved.
         iterations: of the solver, summed over the QPs.
-        usable: whether the velocity may be sent.
+        fault: why the velocity may not be sent, else empty.
         states: planned deviations of the states, see `Solution`.
     """
 
     velocity: Array
     status: int
     iterations: int
-    usable: bool
+    fault: str
     states: Array
+
+    @property
+    def usable(self) -> bool:
+        """Whether the velocity may be sent."""
+        return not self.fault
 
 
 class Steering(Protocol):

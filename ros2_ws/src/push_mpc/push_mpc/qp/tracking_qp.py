@@ -13,110 +13,18 @@ takes time. The first input is within 2e-4 m/s of that of an independent solver;
 remove this difference for a third more time.
 """
 
-import signal
-from dataclasses import dataclass
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
-import osqp
 from push_core.geometry import Array
 from scipy import sparse
 
+from push_mpc.qp.problem import Problem
+from push_mpc.qp.relaxed_qp import RelaxedQP
+from push_mpc.qp.solution import Solution
+from push_mpc.qp.solver import run, set_up
 from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
-
-_SOLVED_STATUS = (1, 2)  # OSQP's solved, and solved inaccurately
-_ITERATION_LIMIT = 7
-_INTERRUPTED = 10
-_LARGEST_RESIDUAL = 0.1
-"""Largest violation of a constraint at which an unfinished solution may be used, in the solver's
-units: 0.1 mm, 1 mrad, 1 mm/s."""
-OSQP_SETTINGS = {
-    'verbose': False,
-    'eps_abs': 5e-5,
-    'eps_rel': 5e-5,
-    'alpha': 1.3,
-    'rho': 1.0,
-    'check_termination': 5,
-    'max_iter': 200,
-    'adaptive_rho_interval': 25,
-    'adaptive_rho_tolerance': 2.0,
-    'scaling': 0,
-}
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Solution of the QP; its arrays are valid until the next solve.
-
-    Attributes:
-        inputs: deviations of the inputs from the nominal (N, m).
-        states: deviations of the states (N + 1, 4), in the solver's units.
-        cost: of the whole horizon, in the solver's scale.
-        status: of the solver, 1 = solved.
-        iterations: of the solver.
-        residual: largest violation of a constraint, in the solver's units.
-    """
-
-    inputs: Array
-    states: Array
-    cost: float
-    status: int
-    iterations: int
-    residual: float
-
-    @property
-    def usable(self) -> bool:
-        """Whether the inputs are finite and keep the constraints.
-
-        At the iteration limit the inputs may be suboptimal, but must satisfy dynamics and bounds:
-        the residual of an infeasible problem stays large.
-        """
-        unfinished = self.status == _ITERATION_LIMIT and self.residual <= _LARGEST_RESIDUAL
-        usable = unfinished or self.status in _SOLVED_STATUS
-        return usable and bool(np.isfinite(self.inputs).all())
-
-
-@dataclass(frozen=True)
-class Problem:
-    """The QP of one tick: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
-
-    The variables z are the states, 4 (N + 1) of them, then the inputs. The rows are the dynamics,
-    one for each state, then the limits.
-
-    Attributes:
-        cost: diagonal of the quadratic part (n,).
-        linear: linear part (n,).
-        matrix: constraints (rows, n).
-        low: lower bounds (rows,).
-        high: upper bounds (rows,).
-        states: number of states, which is also the number of rows of the dynamics.
-        units: SI values of the units of the variables (n,), of the rows (rows,) and of the cost.
-    """
-
-    cost: Array
-    linear: Array
-    matrix: sparse.csc_matrix
-    low: Array
-    high: Array
-    states: int
-    units: tuple[Array, Array, float]
-
-    def in_si_units(self) -> 'Problem':
-        """The same problem in SI units."""
-        variables, rows, cost = self.units
-        matrix = sparse.csc_matrix(
-            sparse.diags_array(rows) @ self.matrix @ sparse.diags_array(1.0 / variables)
-        )
-        matrix.sort_indices()
-        ones = np.ones_like(variables), np.ones_like(rows), 1.0
-        return Problem(
-            self.cost * cost / variables**2,
-            self.linear * cost / variables,
-            matrix,
-            self.low * rows,
-            self.high * rows,
-            self.states,
-            ones,
-        )
 
 
 class TrackingQP:
@@ -159,15 +67,10 @@ class TrackingQP:
         self._linear = np.zeros(self._size)
         self._disturbance = np.ones(4)
         self._widening = 0.0
-        self._solver = osqp.OSQP()
-        self._solver.setup(
-            sparse.csc_matrix(sparse.diags_array(self._cost)),
-            self._linear,
-            self._matrix,
-            self._low,
-            self._high,
-            **OSQP_SETTINGS,
-        )
+        self._solver = set_up(self._cost, self._linear, self._matrix)
+        self._contact_rows = self._limited(np.arange(rows))[:, 0]
+        self._relaxed = RelaxedQP(self._cost, self._matrix, self._contact_rows)
+        self._variables = np.zeros(self._size)
 
     def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
         """Loads everything that does not depend on the state: most of the work of a tick.
@@ -193,6 +96,8 @@ class TrackingQP:
     def solve(self, start: Array, widening: float, disturbance: Array, before: Array) -> Solution:
         """Solves the prepared problem, warm-started with the last solution.
 
+        Without a usable solution, bounds on p_y may be violated; see `RelaxedQP`.
+
         Args:
             start: deviation x_0 (4,) from the nominal [m, m, rad, m].
             widening: added to the bounds of p_y on both sides [m].
@@ -208,21 +113,60 @@ class TrackingQP:
         self._limited(self._high)[:, 0] += wider
         self._widening = widening
         self._solver.update(q=self._linear, l=self._low, u=self._high)
-        result = self._solver.solve(raise_error=False)
-        if result.info.status_val == _INTERRUPTED:
-            # OSQP's own handler took the Ctrl-C
-            signal.raise_signal(signal.SIGINT)
-        inputs = result.x[self._states :].reshape(self.steps, -1)
+        solution = self._solution(run(self._solver))
+        if solution.usable:
+            return solution
+        relaxed = self._relaxed.solve(self._matrix.data, self._linear, self._low, self._high)
+        again = self._solution(relaxed)
+        residual = float(self._split_violations()[0].max())
+        return replace(again, iterations=solution.iterations + again.iterations, residual=residual)
+
+    def _solution(self, result: Any) -> Solution:
+        """A result of OSQP, with the inputs in SI units."""
+        self._variables[:] = result.x[: self._size]
+        inputs = self._variables[self._states :].reshape(self.steps, -1)
         np.multiply(inputs, self._space.scale, out=self._inputs)
-        states = result.x[: self._states].reshape(-1, NX)
         info = result.info
         return Solution(
             self._inputs,
-            states,
+            self._variables[: self._states].reshape(-1, NX),
             float(info.obj_val),
             int(info.status_val),
             int(info.iter),
             float(info.prim_res),
+        )
+
+    def largest_violation(self) -> str:
+        """What the latest solution violates, the bounds on p_y apart, by how much in SI units."""
+        others, contact = self._split_violations()
+        if not np.isfinite(others).all():
+            return 'its solution is not a number'
+        row = int(others.argmax())
+        amount, beyond = others[row] * self._row_units()[row], contact.max() * STATE_SCALE[3]
+        name = self._row_name(row)
+        return f'{name} is violated by {amount:.2g}, p_y is {beyond:.2g} m beyond its bounds'
+
+    def _split_violations(self) -> tuple[Array, Array]:
+        """Violation of each row by the latest solution, without and of the bounds on p_y."""
+        activity = self._matrix @ self._variables
+        every = np.maximum(self._low - activity, activity - self._high).clip(min=0.0)
+        contact = every[self._contact_rows]
+        every[self._contact_rows] = 0.0
+        return every, contact
+
+    def _row_name(self, row: int) -> str:
+        if row < self._states:
+            stage, which = divmod(row, NX)
+            return f'{("x [m]", "y [m]", "theta [rad]", "p_y [m]")[which]} of state {stage}'
+        names = ('p_y [m]', *self._space.names)
+        stage, which = divmod(row - self._states, len(names))
+        return f'{names[which]} in step {stage + 1} of {self.steps}'
+
+    def _row_units(self) -> Array:
+        """SI values of the units of the rows."""
+        steps = self.steps
+        return np.concatenate(
+            [np.tile(STATE_SCALE, steps + 1), np.tile(self._space.rows_scale, steps)]
         )
 
     @property
@@ -230,7 +174,6 @@ class TrackingQP:
         """A copy of the problem that was solved last."""
         steps, space = self.steps, self._space
         variables = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.scale, steps)])
-        rows = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.rows_scale, steps)])
         pattern = self._matrix.indices, self._matrix.indptr
         return Problem(
             self._cost,
@@ -239,7 +182,7 @@ class TrackingQP:
             self._low.copy(),
             self._high.copy(),
             self._states,
-            (variables, rows, self._cost_unit),
+            (variables, self._row_units(), self._cost_unit),
         )
 
     def _disturb(self, disturbance: Array) -> None:

@@ -16,7 +16,7 @@ from push_mpc.qp.steering import LinearisedPlan, Move
 from push_mpc.qp.tracking_qp import TrackingQP
 from push_mpc.settings import ControllerSettings
 
-SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2))
+SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2), ('v_n [m/s]', 'v_t [m/s]'))
 
 
 class VelocitySteering:
@@ -59,10 +59,14 @@ class VelocitySteering:
     ) -> Move:
         """See `Steering.solve`."""
         nominal = linearised.plan.at(time)[1]
-        solution = self.solvers[0].solve(deviation, widening, disturbance, sent - nominal)
-        velocity = nominal + solution.inputs[0]
+        (solver,) = self.solvers
+        solution = solver.solve(deviation, widening, disturbance, sent - nominal)
         return Move(
-            velocity, solution.status, solution.iterations, solution.usable, solution.states
+            nominal + solution.inputs[0],
+            solution.status,
+            solution.iterations,
+            '' if solution.usable else solver.largest_violation(),
+            solution.states,
         )
 
     def _limits(self, preview: Preview) -> tuple[Array, Array]:
