@@ -30,7 +30,7 @@ from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
 from push_bringup.experiment.lap import Lap, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
-from push_bringup.mismatch.plants import PLANTS, Plant
+from push_bringup.mismatch.plants import PLANTS, PlantVariant
 from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
@@ -215,7 +215,7 @@ def test_every_plant_is_a_cell_and_each_is_another(tmp_path) -> None:
 
 
 def test_the_bench_pushes_its_rows_and_prints_them(tmp_path, monkeypatch, capsys) -> None:
-    monkeypatch.setitem(PLANTS, 'home', Plant('nothing', {'profile': 'ideal'}, LINE))
+    monkeypatch.setitem(PLANTS, 'home', PlantVariant('nothing', {'profile': 'ideal'}, LINE))
     page, options = tmp_path / 'page.html', ['--rows', 'home', '--controllers', 'analytical']
     work = ['--jobs', '1', '--laps-file', str(tmp_path / 'laps.jsonl'), '--html', str(page)]
     assert bench.main(['mismatch', *options, '--seeds', '1', *work, '--json']) == 0

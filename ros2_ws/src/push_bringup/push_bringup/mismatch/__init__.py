@@ -1,5 +1,5 @@
 """Laps on plants that differ from what the controller assumes."""
 
-from push_bringup.mismatch.plants import PLANTS, Plant
+from push_bringup.mismatch.plants import PLANTS, PlantVariant
 
-__all__ = ['PLANTS', 'Plant']
+__all__ = ['PLANTS', 'PlantVariant']

@@ -7,15 +7,15 @@ from pathlib import Path
 
 from push_core.common import Parser, finite, run_command
 
-from push_bringup.bench.options import (
+from push_bringup.bench import (
+    MismatchRow,
     add_controllers,
     add_lap_options,
     check_positive,
+    mismatch_rows,
     opened_store,
     print_results,
 )
-from push_bringup.bench.rows import MismatchRow
-from push_bringup.bench.tables import mismatch_rows
 from push_bringup.experiment import LapJob, push_all
 from push_bringup.mismatch.plants import PLANTS
 from push_bringup.setup import model_for

@@ -19,7 +19,7 @@ _FAST = {
 
 
 @dataclass(frozen=True)
-class Plant:
+class PlantVariant:
     """One plant.
 
     Attributes:
@@ -33,12 +33,12 @@ class Plant:
     experiment: Experiment = _EIGHT
 
 
-def _world(text: str, name: str, value: object) -> Plant:
-    return Plant(text, {f'world.{name}': value})
+def _world(text: str, name: str, value: object) -> PlantVariant:
+    return PlantVariant(text, {f'world.{name}': value})
 
 
-def _noise(millimetres: float, degrees: float) -> Plant:
-    return Plant(
+def _noise(millimetres: float, degrees: float) -> PlantVariant:
+    return PlantVariant(
         f'camera noise {millimetres:g} mm, {degrees:g}°',
         {
             'sensor.position_noise': 1e-3 * millimetres,
@@ -47,16 +47,20 @@ def _noise(millimetres: float, degrees: float) -> Plant:
     )
 
 
-def _robot(text: str, name: str, milliseconds: int) -> Plant:
-    return Plant(f'{text} {milliseconds} ms', {f'sim_node.actuator.{name}': 1e-3 * milliseconds})
+def _robot(text: str, name: str, milliseconds: int) -> PlantVariant:
+    return PlantVariant(
+        f'{text} {milliseconds} ms', {f'sim_node.actuator.{name}': 1e-3 * milliseconds}
+    )
 
 
-def _fast(speed: int) -> Plant:
-    return Plant(f'{speed} mm/s, limits raised', _FAST, Experiment(_EIGHT.track, 1e-3 * speed))
+def _fast(speed: int) -> PlantVariant:
+    return PlantVariant(
+        f'{speed} mm/s, limits raised', _FAST, Experiment(_EIGHT.track, 1e-3 * speed)
+    )
 
 
-PLANTS: Mapping[str, Plant] = {
-    'home': Plant('nothing'),
+PLANTS: Mapping[str, PlantVariant] = {
+    'home': PlantVariant('nothing'),
     **{
         f'friction_{value}': _world(f'friction of the tip {value}', 'friction_pusher', value)
         for value in (0.1, 0.3, 0.4, 0.6)
@@ -71,7 +75,7 @@ PLANTS: Mapping[str, Plant] = {
     'larger': _world('object 10 % larger', 'size_error', 0.1),
     'noise_0.5': _noise(0.5, 0.5),
     'noise_1': _noise(1.0, 1.0),
-    'half_lost': Plant('half of the pictures lost', {'sensor.dropout': 0.5}),
+    'half_lost': PlantVariant('half of the pictures lost', {'sensor.dropout': 0.5}),
     'dead_time_20': _robot('dead time', 'dead_time', 20),
     'dead_time_120': _robot('dead time', 'dead_time', 120),
     'lag_20': _robot('lag', 'lag', 20),
@@ -82,7 +86,7 @@ PLANTS: Mapping[str, Plant] = {
     'quasi_static': _world('another engine, without inertia', 'engine', 'quasi_static'),
     # the remaining rows of the paper's table; the first is home
     **{
-        f'{each.track}_{1e3 * each.speed:.0f}_{each.perturbation}': Plant(
+        f'{each.track}_{1e3 * each.speed:.0f}_{each.perturbation}': PlantVariant(
             'nothing', experiment=each
         )
         for each in PAPER_MM
