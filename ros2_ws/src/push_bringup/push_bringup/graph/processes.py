@@ -67,7 +67,7 @@ class Processes:
                     stdout=output,
                     stderr=output,
                     start_new_session=True,
-                    preexec_fn=_end_with_parent,  # noqa: PLW1509  no thread runs yet
+                    preexec_fn=_end_with_parent,  # noqa: PLW1509  takes no lock of another thread
                 )
             self._children[name] = Child(name, process, log)
 
