@@ -20,6 +20,7 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recorder',
     'push_bag.record.recording',
     'push_bag.replay.node_comparison',
+    'push_bringup.driver_check.driver_client',
     'push_bringup.graph.starter',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',

@@ -28,6 +28,7 @@ setup(
         'console_scripts': [
             'bench = push_bringup.console:bench',
             'cell = push_bringup.console:cell',
+            'check_driver = push_bringup.console:check_driver',
             'parameters = push_bringup.console:parameters',
             'start = push_bringup.console:start',
         ],
