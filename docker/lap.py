@@ -1,6 +1,5 @@
 """Leads nodes in containers of their own through one run: reset, start, watch."""
 
-import os
 import sys
 
 from push_bringup.graph.conductor import Conductor
@@ -17,7 +16,7 @@ def main() -> int:
     """Runs once; the status is 1 if the lap was not completed."""
     conductor = Conductor('', Elsewhere())
     try:
-        reason = conductor.run(int(os.environ.get('SEED', '0')))
+        reason = conductor.run()
     except KeyboardInterrupt:
         return 130
     finally:

@@ -33,7 +33,7 @@ bag_split() {
 
 bag_types_not_installed() {
   has 'left out /[a-z_/]+: message type [a-zA-Z_/]+ is not installed' &&
-    has '^2721 messages on 7 topics replayed' && has '^status 0'
+    has '^2073 messages on 6 topics replayed' && has '^status 0'
 }
 
 cell_label_of_profile() {

@@ -22,6 +22,7 @@ from push_bringup.commands.launch_arguments import ARGUMENTS, LaunchArgument, ch
 from push_bringup.commands.launched_cell import LaunchedCell, LaunchedNode, launched_cell
 from push_bringup.graph.node_graph import FAST_DDS_PROFILES
 from push_bringup.setup import installed_config
+from push_node.spin import LAUNCHED
 
 # a bag is finished within this time after Ctrl-C, even on a busy machine
 PATIENCE = '20'  # [s]
@@ -69,6 +70,7 @@ def _node(each: LaunchedNode, cell: LaunchedCell) -> Node:
         parameters=[str(each.params)] if each.params else None,
         remappings=cell.remappings,
         output='screen',
+        additional_env={LAUNCHED: '1'},
         sigterm_timeout=PATIENCE,
         on_exit=_on_exit(each),
     )

@@ -2,6 +2,7 @@
 
 import atexit
 import inspect
+import os
 import re
 import signal
 import sys
@@ -11,6 +12,7 @@ from types import FrameType
 
 import rclpy
 from push_core.common import (
+    INTERRUPTED,
     InputError,
     InterruptsHeld,
     PushError,
@@ -33,6 +35,9 @@ A node of the cell. `ros2 run push_bringup cell` starts all nodes. It runs until
   --ros-args --params-file FILE    sets many
   ros2 run push_bringup parameters lists them all, with units, defaults and ranges
 """
+LAUNCHED = 'PUSH_LAUNCHED'
+"""Environment variable that our launch file sets for its nodes."""
+
 _stop_requested = False
 
 
@@ -50,8 +55,8 @@ def run_node(make_node: Callable[[], Node], argv: Sequence[str] | None = None) -
         argv: ROS arguments; default: those of the process.
 
     Returns:
-        Exit status: 0 stopped on request, at whatever moment: launch takes any other for a crash;
-        1 the node failed, 2 an argument was wrong.
+        Exit status: 0 stopped on request, 1 the node failed, 2 an argument was wrong, 130
+        interrupted before the node was made; a launch file gets 0 for that, too.
     """
     # held for the threads of the middleware too: OSQP's handler would take a Ctrl-C there
     with InterruptsHeld():
@@ -65,7 +70,7 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
             print(f'{inspect.getdoc(make_node)}\n{_HELP}', end='')  # noqa: T201
             return 0
         if take_held_interrupt():
-            return 0
+            return _interrupted()
         init_ros(arguments)
         node = _made(make_node)
         try:
@@ -78,12 +83,17 @@ def _run_node(make_node: Callable[[], Node], arguments: Sequence[str]) -> int:
         sys.stderr.write(f'{_name(make_node)}: {describe(error)}\n')
         return error.status if isinstance(error, PushError) else 1
     except KeyboardInterrupt:  # of a long step while the node was made
-        return 0
+        return _interrupted()
     finally:
         rclpy.try_shutdown()
         # only then: processes started from here on would inherit it
         atexit.register(_ignore_signals)
     return 0
+
+
+def _interrupted() -> int:
+    # launch reports any other status than 0 as a crash
+    return 0 if LAUNCHED in os.environ else INTERRUPTED
 
 
 class Spinner:

@@ -162,7 +162,7 @@ def test_an_argument_that_is_none_of_ros_is_refused(node) -> None:
     )
 
 
-def test_ctrl_c_during_the_imports_ends_it_before_it_is_made_with_status_0(started) -> None:
+def test_ctrl_c_during_the_imports_ends_it_before_it_is_made_with_status_130(started) -> None:
     program = PROGRAM.format(construction='pass', tick='pass').replace(
         'sys.exit(',
         'from push_core.console import hold_interrupts; hold_interrupts()\n'
@@ -170,7 +170,7 @@ def test_ctrl_c_during_the_imports_ends_it_before_it_is_made_with_status_0(start
     )
     process = started(program)
     output, errors = process.communicate(timeout=PATIENCE)
-    assert (process.returncode, output, errors) == (0, '', '')
+    assert (process.returncode, output, errors) == (130, '', '')
 
 
 def test_ctrl_c_while_it_is_made_ends_it_cleaned_up_before_the_first_callback(node) -> None:

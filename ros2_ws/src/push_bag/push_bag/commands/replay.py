@@ -153,6 +153,11 @@ def _topics(bag: Survey, arguments: argparse.Namespace) -> list[Topic]:
     others = [topic for topic in topics if not is_command(topic.name)]
     if not others:
         raise InputError('commands are published only with --with-commands')
+    for topic in topics:
+        if is_command(topic.name):
+            sys.stderr.write(
+                f'replay: left out {topic.name}: commands are published with --with-commands\n'
+            )
     return others
 
 

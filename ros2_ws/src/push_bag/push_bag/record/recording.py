@@ -7,6 +7,7 @@ from typing import Protocol
 
 import rclpy
 from push_core.common import InputError
+from push_node import interface
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
@@ -103,7 +104,11 @@ class Recording:
         """
         for topic, subscription in self._subscriptions.items():
             seen = self.traffic[topic]
-            for taken in subscription.take_all():
+            for received in subscription.take_all():
+                taken = received
+                if topic == interface.PARAMETER_EVENTS.absolute_name:
+                    # each node publishes a burst as it starts, before anybody can hear it
+                    taken = received._replace(sequence=seen.received + 1)
                 self._writer.write(topic, *taken)
                 seen.add(taken.sequence, taken.received_ns)
 
