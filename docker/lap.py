@@ -14,7 +14,7 @@ class Elsewhere:
 
 def main() -> int:
     """Runs once; the status is 1 if the lap was not completed."""
-    conductor = Conductor('', Elsewhere())
+    conductor = Conductor('', Elsewhere(), alone=False)
     try:
         reason = conductor.run()
     except KeyboardInterrupt:

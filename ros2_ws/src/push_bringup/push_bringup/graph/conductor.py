@@ -26,11 +26,18 @@ _STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
 class Conductor:
     """A node that calls the services of the cell and listens to its controller."""
 
-    def __init__(self, namespace: str, processes: Processes) -> None:
+    def __init__(self, namespace: str, processes: Processes, *, alone: bool = True) -> None:
+        """Joins the graph.
+
+        Args:
+            namespace: of the cell, '' for none.
+            processes: the nodes.
+            alone: whether they are still to be started, so that no other may be there.
+        """
         stop_on_signals()
         init_ros()
         self._node = Node('cell', namespace=namespace)
-        self._processes = processes
+        self._processes, self._alone = processes, alone
         self._spinner = Spinner(self._node)
         self._plan: NominalTrajectory | None = None
         self._state: ControllerState | None = None
@@ -68,8 +75,9 @@ class Conductor:
             RunError: another cell runs here, this one did not become ready, or a node ended.
             KeyboardInterrupt: a stop was requested.
         """
-        check_alone(self._node)
-        self._processes.start()
+        if self._alone:
+            check_alone(self._node)
+            self._processes.start()
         self._wait(lambda: self._plan is not None, READY_TIMEOUT, 'no plan from mpc_node')
         check_single(self._node)
         self._starter.start()

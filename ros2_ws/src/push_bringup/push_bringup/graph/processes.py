@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -86,28 +87,20 @@ class Processes:
         return self._children[name].process.poll()
 
     def interrupt(self, *names: str) -> None:
-        """Interrupts nodes."""
-        for name in names:
-            if self.status(name) is None:
-                self._children[name].process.send_signal(signal.SIGINT)
+        """Interrupts nodes, of those that were started."""
+        for child in self._started(names):
+            if child.process.poll() is None:
+                child.process.send_signal(signal.SIGINT)
 
     def stop(self, *names: str) -> None:
         """Interrupts nodes, waits for them, and kills those that do not end, with a warning."""
         self.interrupt(*names)
         deadline = time.monotonic() + STOP_TIMEOUT
-        for name in names:
-            self._wait(name, deadline)
+        for child in self._started(names):
+            _wait(child, deadline)
 
-    def _wait(self, name: str, deadline: float) -> None:
-        process = self._children[name].process
-        try:
-            process.wait(max(deadline - time.monotonic(), 0.0))
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-            sys.stderr.write(
-                f'cell: {name} did not end within {STOP_TIMEOUT:g} s and was killed\n'
-            )
+    def _started(self, names: Iterable[str]) -> list[Child]:
+        return [self._children[name] for name in names if name in self._children]
 
     def _ros_arguments(self) -> list[str]:
         arguments = ['--params-file', str(self._params)]
@@ -119,6 +112,18 @@ class Processes:
             clock = f'{CLOCK.name}:={CLOCK.short_name}'
             arguments += ['-r', f'__ns:=/{self._namespace}', '-r', clock]
         return arguments
+
+
+def _wait(child: Child, deadline: float) -> None:
+    process = child.process
+    try:
+        process.wait(max(deadline - time.monotonic(), 0.0))
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+        sys.stderr.write(
+            f'cell: {child.name} did not end within {STOP_TIMEOUT:g} s and was killed\n'
+        )
 
 
 def _end_with_parent() -> None:
