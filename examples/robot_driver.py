@@ -23,7 +23,7 @@ SERVO, EXPOSURE = 0.004, 0.01  # [s]
 DEAD_TIME, LAG, WATCHDOG = 0.04, 0.03, 0.05  # [s]
 
 
-class Robot(Node):
+class Robot(Node):  # type: ignore[misc]
     """Arm and cameras around a physics engine."""
 
     def __init__(self) -> None:
