@@ -104,7 +104,7 @@ def test_a_heading_that_is_no_number_is_refused() -> None:
         planned(replace(SETTINGS, start_heading='north'))
 
 
-@pytest.mark.parametrize('seconds', [0.0, 0.2, 0.4])
+@pytest.mark.parametrize('seconds', [0.05, 0.2, 0.4])
 def test_ctrl_c_ends_it_at_once(seconds, capfd) -> None:
     settings = replace(SETTINGS, planner='optimal', track='eight')
     timer = threading.Timer(seconds, signal.pthread_kill, (threading.get_ident(), signal.SIGINT))

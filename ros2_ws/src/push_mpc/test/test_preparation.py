@@ -67,8 +67,9 @@ def test_after_the_process_was_killed_the_model_after_next_is_prepared(preparati
 def test_closing_ends_the_process(plan_of, table) -> None:
     before = children()
     made = Preparation(SETTINGS, Controller(SETTINGS, SETTINGS.slider, plan_of(SETTINGS)))
-    assert children() == before
+    assert children() <= before
     made.prepare(table, 'first')
     assert len(children() - before) == 1
     made.close()
-    assert children() == before
+    # those of other tests may end meanwhile
+    assert children() <= before
