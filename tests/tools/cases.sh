@@ -36,6 +36,31 @@ bag_types_not_installed() {
     has '^2073 messages on 6 topics replayed' && has '^status 0'
 }
 
+push_units_and_signs() {
+  has 'deg_theta.csv: .*degrees: divide by 57.3' && has 'cm_dxdy.csv: .*centimetres: divide by 100' &&
+    has 'flip_theta.csv: dtheta_rad has the other sign' && has 'flip_py.csv: p_y_m has the other sign' &&
+    has 'flip_dy.csv: dy_m has the other sign' && has 'swap_xy.csv: dx_m and dy_m are exchanged' &&
+    has 'zeros.csv: the object did not move' && counts 1 '^completed +yes'
+}
+
+push_duplicates() {
+  has '200 of 400 rows are copies' && counts 2 '^completed +yes'
+}
+
+push_csv_forms() {
+  counts 7 '^model [0-9a-f]+ written' && has 'noheader.csv, line 1: names no columns'
+}
+
+two_commanders() {
+  has 'cell: .*/teleop' && lacks '^completed +yes'
+}
+
+own_driver() {
+  has '^deadline-mm commands received 0' && has '^deadline-zeroq commands received 0' &&
+    has '^deadline-past commands received 0' && has '^deadline-stamp0 commands received 0' &&
+    lacks 'KeyboardInterrupt'
+}
+
 cell_label_of_profile() {
   has '^run .* ideal, inprocess, seed 7' && has '^profile: ideal' && has '^seed: 7' &&
     has 'actuator.dead_time: 0.0' && lacks 'irb120'
