@@ -111,6 +111,7 @@ def test_ctrl_c_ends_it_at_once(seconds, capfd) -> None:
     started = time.thread_time()
     with pytest.raises(KeyboardInterrupt):
         timer.start()
-        planned(settings)
+        while timer.is_alive():  # a fast machine may be done with one plan before
+            planned(settings)
     assert time.thread_time() - started < 2.0
     assert 'CasADi' not in capfd.readouterr().err
