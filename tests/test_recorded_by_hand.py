@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from cell_command import HANG, Ended
 from push_bag.file.reader import BagReader
+from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_starts
 from push_bag.score.score import score_run, score_series
 from push_core.common.errors import InputError
@@ -66,6 +67,41 @@ def wait_until_completed(folder: Path, number: int) -> None:
         time.sleep(0.5)
         with contextlib.suppress(InputError):
             starts = [score_series(run) for run in read_starts(folder)]
+
+
+def test_two_runs_that_begin_where_the_object_lies_recompute_bit_for_bit(
+    by_hand: Callable[..., 'subprocess.Popen[bytes]'],
+    environment: dict[str, str],
+    tmp_path: Path,
+) -> None:
+    """The second one begins where the first one left the object; nothing is reset."""
+    (tmp_path / 'arc.csv').write_text('3,3\n3.1,3.01\n3.2,3.04\n3.3,3.09\n')
+    begin = [option for name in ('x', 'y') for option in ('-p', f'start.{name}:=-0.2')]
+    by_hand('push_sim', 'sim_node', *LOCKSTEP, *begin, '-p', 'start.gap:=0.002')
+    by_hand('push_gp', 'gp_server')
+    here = ('-p', 'start_from:=here', '-p', 'controller:=analytical', '-p', 'track:=arc.csv')
+    by_hand('push_mpc', 'mpc_node', *LOCKSTEP, *SPEED, *here)
+    recorder = by_hand('push_bag', 'recorder', '-p', 'folder:=run1')
+    for number in (1, 2):
+        started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
+        assert started.status == 0, started.err
+        wait_until_completed(tmp_path / 'run1', number)
+    recorder.send_signal(signal.SIGINT)
+    assert recorder.wait(timeout=HANG) == 0
+
+    first, second = read_starts(tmp_path / 'run1')
+    assert first.reference is not None
+    assert second.reference is not None
+    np.testing.assert_array_equal(first.reference.pose[0], first.object.values[0])
+    assert first.reference.pose[0] == pytest.approx([-0.2, -0.2, 0.0], abs=0.005)
+    # the tip comes to rest after the end of the reference
+    assert second.reference.pose[0] == pytest.approx(first.reference.pose[-1], abs=0.06)
+    for run in (first, second):
+        assert score_series(run)['tracking_error_mm']['mean'] < 2.0
+    (tmp_path / 'arc.csv').unlink()
+    again = recomputed(tmp_path / 'run1', Changes())
+    assert again.stamp.size > 300
+    assert again.same
 
 
 def test_two_runs_of_nodes_started_by_hand_are_scored_apart_and_recompute_bit_for_bit(

@@ -43,6 +43,7 @@ def test_an_override_without_an_effect_is_refused(overrides, mode, fault) -> Non
         ({}, None),
         ({'start.x': 0.0}, None),
         ({'start_offset.x': 0.01}, 'inprocess'),
+        ({'start_from': 'here', 'start.x': 0.3}, 'lockstep'),
         ({'mode': 'lockstep'}, None),
         ({'mode': 'lockstep'}, 'inprocess'),
         ({'force_weights.slip': 1.0}, None),

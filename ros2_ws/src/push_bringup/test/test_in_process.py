@@ -5,8 +5,10 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
+import numpy as np
 import pytest
 from mcap.reader import make_reader
+from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_run
 from push_bringup.commands.cell import main
 from push_bringup.graph.cell_lock import CellLock
@@ -99,6 +101,35 @@ def test_changed_parameters_are_part_of_the_label(tmp_path, capsys) -> None:
     assert 'seed 0, sim_node.actuator.lag=0.02\n' in out
     report = (Path(out.splitlines()[-1]) / 'report.html').read_text()
     assert 'sim_node.actuator.lag=0.02' in report
+
+
+def test_a_run_begins_where_the_object_lies_and_is_recomputed_bit_for_bit(
+    model_file, tmp_path, capsys
+) -> None:
+    place = {'x': 0.05, 'y': -0.1, 'theta': 2.0, 'p_y': 0.01, 'gap': 0.02}
+    words = [word for name, value in place.items() for word in ('-p', f'start.{name}:={value}')]
+    chosen = [*LINE, '--start', 'here', '--model', str(model_file)]
+    assert main([*chosen, *words, '-o', str(tmp_path)]) == 0
+    folder = Path(capsys.readouterr().out.splitlines()[-1])
+    run = read_run(folder)
+    assert run.reference is not None
+    begin, end = run.reference.pose[[0, -1]]
+    np.testing.assert_array_equal(begin, run.object.values[0])
+    assert begin == pytest.approx([0.05, -0.1, 2.0], abs=0.005)
+    assert end[:2] - begin[:2] == pytest.approx(0.5 * np.array([np.cos(2), np.sin(2)]), abs=3e-3)
+    score = json.loads((folder / 'score.json').read_text())
+    assert score['tracking_error_mm']['mean_after_start'] < 1.0
+    assert 'mpc_node.start_from=here' in score['changed']
+    assert recomputed(folder, Changes()).same
+
+
+def test_a_run_that_cannot_begin_where_the_object_lies_says_why(tmp_path, capsys) -> None:
+    chosen = [*LINE, '--start', 'here', '--controller', 'analytical', '-o', str(tmp_path)]
+    assert main([*chosen, '-p', 'start.gap:=0.2']) == 1
+    assert 'the tip is not in front of the pushed face: 200 mm' in capsys.readouterr().err
+    assert main([*chosen, '-p', 'start.x:=0.5']) == 1
+    assert 'from here the track leaves the workspace' in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_run_that_does_not_reach_its_end_says_why_with_status_1(tmp_path, capsys) -> None:

@@ -15,7 +15,10 @@ from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.table.surrogate import Table
 
 # those of the node alone; test_mpc_node.py, test_pose_gate.py and test_planning.py cover them
-OF_THE_NODE = {'profile', 'preset', 'mode', 'pose_timeout', 'pose_loss', 'require_recorder'}
+OF_THE_NODE = {
+    *('profile', 'preset', 'mode', 'start_from'),
+    *('pose_timeout', 'pose_loss', 'require_recorder'),
+}
 USUAL = replaced(
     mpc_settings('irb120'),
     {'speed': 0.1, 'good_poses': 2, 'consistent_plan': False, 'limits.reaction_time': 0.5},

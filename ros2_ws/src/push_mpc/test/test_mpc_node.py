@@ -222,6 +222,35 @@ def test_it_does_not_listen_to_the_ground_truth(cell, started) -> None:
     assert interface.GROUND_TRUTH.absolute_name not in heard
 
 
+def test_it_starts_where_the_object_lies_and_says_what_hinders(cell, started) -> None:
+    started('track:=line', 'start_from:=here', 'require_recorder:=false')
+    place, gap = np.array([0.04, -0.03, 0.0]), 0.13
+
+    def lie(message: PoseStamped) -> None:
+        message.pose.position.x += place[0]
+        message.pose.position.y += place[1]
+
+    def withdraw(message: PoseStamped) -> None:
+        message.pose.position.x -= gap
+
+    cell.spoil, cell.spoil_tip, cell.poses_on = lie, withdraw, True
+    cell.announce_model()
+    cell.call_until('start', lambda answer: 'the tip is not' in answer.message)
+    told = cell.call('start').message
+    assert '130 mm from its line (at most 100' in told
+    assert told.endswith('; move the tip or the object')
+    assert (cell.plans[-1].x[0], cell.plans[-1].y[0]) == (0.0, 0.0)
+
+    cell.spoil_tip = lambda message: None
+    cell.call_until('start', lambda answer: answer.success)
+    cell.wait(lambda: cell.plans[-1].x[0] == place[0])
+    assert (cell.plans[-1].y[0], cell.plans[-1].theta[0]) == (place[1], 0.0)
+    assert cell.plans[-1].x[-1] == pytest.approx(0.54)
+    cell.wait(lambda: cell.mode() == ControllerState.TRACKING)
+    cell.wait(lambda: np.isfinite(cell.states[-1].reference[0]))
+    assert cell.states[-1].reference[1] == pytest.approx(place[1], abs=1e-3)
+
+
 def test_it_is_silent_while_idle_and_announces_its_plan(cell, started) -> None:
     started(LINE)
     cell.poses_on = True

@@ -68,3 +68,15 @@ def test_a_track_that_asks_too_much_of_the_pusher_is_refused_with_the_place() ->
     narrow = replace(SETTINGS, track='square', speed=0.1, tangential_speed_limit=0.05)
     with pytest.raises(InputError, match=r'\|v_t\| = 0.0\d+ m/s near \d+ mm .* limit is 0.05'):
         planned(narrow)
+
+
+def test_a_track_that_will_be_moved_may_lie_anywhere_but_must_fit(tmp_path) -> None:
+    here = replace(SETTINGS, start_from='here')
+    path = tmp_path / 'far.csv'
+    path.write_text('5,5\n5.1,5\n5.2,5.02\n5.3,5.02\n')
+    with pytest.raises(InputError, match='leaves the workspace'):
+        planned(replace(SETTINGS, track=str(path)))
+    assert planned(replace(here, track=str(path))).duration > 3.0
+    path.write_text('0,0\n100,0\n200,50\n300,50\n')
+    with pytest.raises(InputError, match=r'304 m away from its start, .* look like millimetres'):
+        planned(replace(here, track=str(path)))

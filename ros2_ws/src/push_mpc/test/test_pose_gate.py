@@ -1,6 +1,7 @@
 """The gate refuses every pose that cannot be, and no pose that can."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,8 @@ from hypothesis import strategies as st
 from push_core.physics.safety import SafetyLimits
 from push_core.physics.slider import Slider
 from push_mpc.estimate.pose_gate import PoseGate, Rejection
-from push_mpc.loop.start_check import start_fault
+from push_mpc.loop.start_check import here_fault, start_fault
+from push_mpc.settings.node_settings import mpc_settings
 from push_mpc.settings.pose_gate_settings import PoseGateSettings
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
@@ -120,4 +122,25 @@ START = np.array([0.1, 0.0, 0.0, 0.0])
 )
 def test_a_plan_begins_only_where_object_and_tip_are(pose, tip, fault: str) -> None:
     text = start_fault(Slider(), START, np.array(pose), np.array(tip))
+    assert text == '' if not fault else fault in text
+
+
+@pytest.mark.parametrize(
+    ('pose', 'tip', 'fault'),
+    [
+        ((-0.3, 0.1, 0.2), (0.099, 0.0), ''),
+        ((-0.3, 0.1, 3.0), (0.1, 0.0), 'leaves the workspace of +-0.6 m by +-0.6 m by 195 mm'),
+        ((-0.3, 0.1, 0.2), (0.15, 0.01), '150 mm from its line (at most 100'),
+        ((-0.3, 0.1, 0.2), (0.0, 0.06), '60 mm from its middle (at most 45)'),
+        ((-0.3, 0.1, 0.2), (-0.02, 0.0), '-20 mm from its line'),
+    ],
+)
+def test_a_plan_is_moved_only_to_where_tip_and_workspace_permit(
+    pose, tip: tuple[float, float], fault: str, plan_of
+) -> None:
+    """`tip` is gap and offset at the pushed face."""
+    settings = replace(mpc_settings('ideal'), track='line')
+    slider, object_pose = settings.slider, np.array(pose)
+    place = slider.tip_position(object_pose, tip[1], tip[0])
+    text = here_fault(slider, settings.limits, plan_of(settings), object_pose, place)
     assert text == '' if not fault else fault in text

@@ -10,7 +10,7 @@ from push_core.geometry import Array
 from push_node import interface
 from push_node.endpoints import short_name
 
-from push_bag.file import BagReader, Columns
+from push_bag.file import BagReader, Columns, Record
 from push_bag.run.conversions import (
     POSE_FIELDS,
     STAMP,
@@ -25,6 +25,7 @@ OBJECT_POSE = interface.OBJECT_POSE.short_name
 TIP_POSE = interface.PUSHER_POSE.short_name
 COMMAND = interface.PUSHER_VELOCITY_CMD.short_name
 STATE = interface.CONTROLLER_STATE.short_name
+PLAN = interface.NOMINAL_TRAJECTORY.short_name
 TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
 
@@ -78,10 +79,13 @@ class RecordedRun:
             COMMAND: TopicTable(TWIST_FIELDS, 2, velocities),
             STATE: TopicTable(TICK_FIELDS, 3, self._tick_values),
         }
+        self._plans: list[Record] = []
         for record in self.reader.records():
-            table = tables.get(short_name(record.topic.name))
-            if table is not None:
-                table.add(record)
+            name = short_name(record.topic.name)
+            if name == PLAN:
+                self._plans.append(record)
+            elif name in tables:
+                tables[name].add(record)
         rows = {name: table.in_log_order() for name, table in tables.items()}
         self._states = rows.pop(STATE)
         self._names = [self._names[row] for row in tables[STATE].log_order.tolist()]
@@ -97,6 +101,18 @@ class RecordedRun:
         """All ticks in the order in which they were computed."""
         for row in np.argsort(self._states.published, kind='stable').tolist():
             yield self._tick(row)
+
+    def plan_start(self, tick: RecordedTick) -> Array:
+        """Pose (3,) at which the plan begins that was in effect at a tick.
+
+        Raises:
+            InputError: the bag holds no plan of that time.
+        """
+        before = [each for each in self._plans if each.publish_ns <= tick.published]
+        if not before:
+            raise InputError(f'{self.reader.path} lacks the plan that the controller followed')
+        plan = max(before, key=lambda each: each.publish_ns).message()
+        return np.array([plan.x[0], plan.y[0], plan.theta[0]])
 
     def __len__(self) -> int:
         return self._states.stamp.size

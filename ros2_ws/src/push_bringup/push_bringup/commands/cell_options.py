@@ -17,6 +17,7 @@ EPILOG = """examples:
   ros2 run push_bringup cell                                   the 8-track at 80 mm/s
   ros2 run push_bringup cell --track square --speed 0.05 --controller analytical
   ros2 run push_bringup cell --mode inprocess -p delay_compensation:=false
+  ros2 run push_bringup cell --start here -p start.x:=0.1 -p start.theta:=0.5
   ros2 run push_bringup cell -p mpc_node.weights.contact:=100.0 -o /tmp/runs
 
 The last line printed is the folder of the run: bag, score.json, report.html, logs.
@@ -60,6 +61,12 @@ def parser() -> Parser:
         choices=('none', 'normal', 'tangential'),
         help='at the start; normal: moves the object 30 mm off the pusher, '
         'tangential: moves the pusher 20 mm along the face (default none)',
+    )
+    parser.add_argument(
+        '--start',
+        choices=('plan', 'here'),
+        help='plan: the object is put at the start of the track; here: the track is moved to '
+        'begin where the object lies, in simulation at start.* (default plan)',
     )
     parser.add_argument('--laps', type=int, help='rounds of a closed track (default 1)')
     parser.add_argument('--seed', type=int, help='of all random numbers (default 0)')
@@ -118,6 +125,7 @@ def requested(arguments: argparse.Namespace) -> Request:
         namespace=_namespace(arguments.namespace),
         overrides=overrides,
         preset=arguments.preset,
+        start=arguments.start,
         params=arguments.params,
     )
 

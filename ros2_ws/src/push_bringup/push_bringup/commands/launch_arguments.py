@@ -41,10 +41,19 @@ ARGUMENTS = (
         'realtime',
         ('realtime', 'lockstep'),
     ),
+    LaunchArgument(
+        'start',
+        'plan: at the start of the track; here: the track is moved to where the object lies',
+        'plan',
+        ('plan', 'here'),
+    ),
     LaunchArgument('laps', 'rounds of a closed track', '1'),
     LaunchArgument('seed', 'of everything random', '0'),
     LaunchArgument(
-        'autostart', 'put the object at the start of the plan, and start', 'false', _BOOLEAN
+        'autostart',
+        'put the object where the plan starts, if it is not there, and start',
+        'false',
+        _BOOLEAN,
     ),
     LaunchArgument('record', 'record a bag', 'true', _BOOLEAN),
     LaunchArgument('folder', 'new folder of the bag; empty: named by time, in runs/', ''),

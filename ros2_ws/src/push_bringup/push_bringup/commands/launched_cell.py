@@ -103,6 +103,7 @@ def _request(values: Mapping[str, str], recorded: bool) -> Request:
         profile=chosen.get('profile'),
         preset=chosen.get('preset'),
         perturb=None,
+        start=chosen.get('start'),
         mode=chosen.get('mode'),
         laps=number(chosen, 'laps', int),
         seed=number(chosen, 'seed', int),

@@ -1,4 +1,7 @@
-"""`ros2 run push_bringup start`: resets the plant to the start of the plan and starts a run."""
+"""`ros2 run push_bringup start`: puts the object at the start of the plan and starts a run.
+
+Where `start_from` of mpc_node is `here` the object stays, and the plan begins where it lies.
+"""
 
 import sys
 import time

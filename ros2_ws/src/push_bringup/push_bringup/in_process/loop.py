@@ -4,8 +4,9 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from push_core.common import RunError
 from push_gp.models import PushModel
-from push_mpc.loop import Controller, Mode, Tick
+from push_mpc.loop import Controller, Mode, Tick, here_fault
 from push_mpc.plan import Plan
 from push_mpc.table import Domain, ModelScope, Query, QueryResult, Table, tabulation
 from push_node.stamps import to_seconds
@@ -32,13 +33,34 @@ class InProcessCell:
         mpc = parameters.mpc
         self.plant = Plant(parameters.sim, parameters.sim.slider)
         self.controller = Controller(mpc, mpc.slider, plan)
-        self._slider = mpc.slider
-        self._seed = parameters.sim.seed
+        self._sim, self._mpc = parameters.sim, mpc
+        self._first: Observation | None = None
         table = tabulated(model, mpc.slider.side)
         self.controller.use(self.controller.prepare_model(table, model.info.model_id))
 
+    def start(self) -> None:
+        """Resets the plant and arms the controller.
+
+        Raises:
+            RunError: the plan cannot begin where the object lies.
+        """
+        self._first = seen = self._reset()
+        if self._mpc.start_from != 'here':
+            self.controller.arm()
+            return
+        fault = here_fault(
+            self._mpc.slider,
+            self._mpc.limits,
+            self.controller.track_plan,
+            seen.object_pose,
+            seen.tip_position,
+        )
+        if fault:
+            raise RunError(fault)
+        self.controller.arm(seen.object_pose)
+
     def run(self, on_tick: OnTick) -> str:
-        """Pushes once along the track.
+        """Pushes once along the track, from a start of its own unless `start` was called.
 
         Args:
             on_tick: called with every observation, the controller's tick and its duration [ms].
@@ -46,9 +68,11 @@ class InProcessCell:
         Returns:
             Reason of an early stop, else an empty string.
         """
-        observation = self._reset()
+        if self._first is None:
+            self.start()
+        assert self._first is not None
+        observation, self._first = self._first, None
         origin = nanoseconds(observation.time)
-        self.controller.arm()
         while self.controller.mode not in (Mode.DONE, Mode.STOPPED):
             started = time.perf_counter()
             tick = self.controller.step(
@@ -68,9 +92,13 @@ class InProcessCell:
         self.plant.close()
 
     def _reset(self) -> Observation:
-        start = self.controller.plan.state[0]
-        tip = self._slider.tip_position(start[:3], start[3])
-        return self.plant.reset(start[:3], tip, self._seed)
+        if self._mpc.start_from == 'here':
+            placed = self._sim.start
+            pose, tip = placed.object_pose, placed.tip_position(self._sim.slider)
+        else:
+            state = self.controller.plan.state[0]
+            pose, tip = state[:3], self._mpc.slider.tip_position(state[:3], state[3])
+        return self.plant.reset(pose, tip, self._sim.seed)
 
 
 def tabulated(model: PushModel, side: float) -> Table:

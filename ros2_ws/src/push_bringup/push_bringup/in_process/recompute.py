@@ -28,6 +28,8 @@ from push_bringup.setup import CellParameters, recorded_parameters
 PARAMS_FILE = 'params.yaml'
 ModelById = Callable[[str], PushModel]
 """Recorded model id, to the model to use in its place."""
+PlanStart = Callable[[RecordedTick], Array]
+"""A tick, to the pose (3,) at which its plan begins."""
 
 
 def recomputed(path: Path, changes: Changes) -> Recomputed:
@@ -44,23 +46,28 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
     with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
         files = _unpacked(run, Path(scratch))
         parameters = _parameters(run, changes, files)
-        controller = RecomputingController(parameters, _models_of(run, parameters, files))
+        models = _models_of(run, parameters, files)
+        controller = RecomputingController(parameters, models, run.plan_start)
     return _compared(run, controller)
 
 
 class RecomputingController(Controller):
     """A controller that computes commands but predicts with the recorded ones."""
 
-    def __init__(self, parameters: CellParameters, model_by_id: ModelById) -> None:
+    def __init__(
+        self, parameters: CellParameters, model_by_id: ModelById, plan_start: PlanStart
+    ) -> None:
         """Plans from the parameters.
 
         Args:
             parameters: of the cell.
             model_by_id: the model to use where the run used the one of an id.
+            plan_start: where the plan began in the run.
         """
         super().__init__(parameters.mpc, parameters.mpc.slider, planned(parameters.mpc))
         self._side = parameters.mpc.slider.side
         self._model_by_id = model_by_id
+        self._plan_start = plan_start if parameters.mpc.start_from == 'here' else None
         self._recorded_id = ''
         self._recorded_command: Array | None = None
 
@@ -89,7 +96,7 @@ class RecomputingController(Controller):
         if begins or (tick.mode == Mode.IDLE and self.mode == Mode.STOPPED):
             self.resume()
         if begins:
-            self.arm()
+            self.arm(self._plan_start(tick) if self._plan_start else None)
 
     def _take_model(self, recorded_id: str) -> None:
         model = self._model_by_id(recorded_id)

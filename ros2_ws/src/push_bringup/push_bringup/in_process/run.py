@@ -22,6 +22,7 @@ def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan
         RunError: the bag cannot be written.
     """
     cell = InProcessCell(parameters, model, plan)
+    cell.start()
     duration = cell.controller.plan.duration
     with (
         open_bag(parameters.recorder) as writer,

@@ -119,6 +119,7 @@ def _options(request: Request) -> Values:
             'laps': request.laps,
             'controller': request.controller,
             'preset': request.preset,
+            'start_from': request.start,
         },
     }
     return {

@@ -18,7 +18,8 @@ def check_effective(request: Request, parameters: CellParameters) -> None:
     Raises:
         InputError: names the parameter, and what to do instead.
     """
-    _check_start(parameters.sim)
+    if parameters.mpc.start_from == 'plan':
+        _check_start(parameters.sim)
     _check_modes(request, parameters)
     if request.model and request.model != 'analytical':
         controller = parameters.mpc.controller
@@ -41,8 +42,8 @@ def _check_start(sim: NodeSettings) -> None:
         if value != default[name][0]:
             raise _useless(
                 f'start.{name}',
-                'the cell puts the object to the start of the track; use start_offset.* '
-                'or --perturb',
+                'the cell puts the object to the start of the track; use --start here, '
+                'start_offset.* or --perturb',
             )
 
 

@@ -20,6 +20,7 @@ class Request:
         seed: of everything random.
         mode: realtime, lockstep or inprocess.
         preset: tuned or paper, for the controller.
+        start: plan or here.
         output: folder in which the run's own folder is made.
         namespace: of the node graph, '' for none.
         overrides: further parameters, by name or by node.name.
@@ -36,6 +37,7 @@ class Request:
     seed: int | None = None
     mode: str | None = None
     preset: str | None = None
+    start: str | None = None
     output: Path = Path('runs')
     namespace: str = ''
     overrides: Mapping[str, object] = field(default_factory=dict)

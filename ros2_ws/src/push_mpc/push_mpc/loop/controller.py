@@ -2,7 +2,6 @@
 
 import math
 import time as clock
-from dataclasses import dataclass
 from pkgutil import resolve_name
 
 import numpy as np
@@ -11,10 +10,11 @@ from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit
 
 from push_mpc.estimate import DisturbanceEstimator, Predictor
+from push_mpc.loop.prepared_model import PreparedModel
 from push_mpc.loop.tick import FOLLOWING, Mode, Tick
 from push_mpc.motion import TravelMotion
-from push_mpc.plan import Plan, consistent_plan
-from push_mpc.qp import LinearisedPlan, PlannedStates, Problem, Steering
+from push_mpc.plan import Placement, Plan, consistent_plan
+from push_mpc.qp import PlannedStates, Problem, Steering
 from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
@@ -22,22 +22,17 @@ _STILL = np.zeros(2)
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
-@dataclass(frozen=True)
-class PreparedModel:
-    """A model as the loop uses it: table, plan, and the QP data along the plan."""
-
-    table: Table
-    plan: Plan
-    linearised: LinearisedPlan
-    model_id: str
-
-
 class Controller:
-    """Model-predictive tracking of a plan with a tabulated model."""
+    """Model-predictive tracking of a plan with a tabulated model.
+
+    Attributes:
+        plan: that is followed: that of the track, or the same moved to where the object lies.
+        track_plan: as it was given.
+    """
 
     def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
         self.settings = settings
-        self.plan = plan
+        self.plan = self.track_plan = plan
         self.mode = Mode.IDLE
         self.stop_reason = ''
         self._slider = slider
@@ -51,6 +46,8 @@ class Controller:
         self._samples = self._steps.copy()
         self._prepared = ('', -1)
         self._model: PreparedModel | None = None
+        self._along_track: PreparedModel | None = None
+        self._placement: Placement | None = None
         self._sent = _STILL
         self._seen = 0
         self._start = 0.0
@@ -71,8 +68,8 @@ class Controller:
         return tuple(solver.problem for solver in self._steering.solvers)
 
     def prepare_model(self, table: Table, model_id: str) -> PreparedModel:
-        """Plans with a model and linearises along the plan; safe to call in another thread."""
-        plan = self.plan
+        """Plans with a model and linearises along the track; safe to call in another thread."""
+        plan = self.track_plan
         if self.settings.consistent_plan:
             plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
         linearised = self._steering.linearised(table, plan, self._stride)
@@ -81,7 +78,8 @@ class Controller:
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""
         first = self._model is None
-        self._model = model
+        self._along_track = model
+        self._model = model.placed(self._placement) if self._placement else model
         if first:
             self._solve(model.plan.state[0], 0.0)
 
@@ -95,14 +93,30 @@ class Controller:
         if settings.disturbance_length == 0.0:
             self._disturbance.reset()
 
-    def arm(self) -> None:
-        """Holds the tip at rest until enough poses have arrived, then tracks the plan."""
+    def arm(self, start: Array | None = None) -> None:
+        """Holds the tip at rest until enough poses have arrived, then tracks the plan.
+
+        Args:
+            start: pose (3,) of the object at which the plan begins; None for that of the track.
+        """
+        self._place(start)
         self.mode = Mode.ARMED
         self.stop_reason = ''
         self._seen = 0
         self._sent = _STILL
         self._predictor.reset()
         self._disturbance.reset()
+
+    def _place(self, start: Array | None) -> None:
+        """Moves plan and QP data; before the run, since it takes time by the length of both."""
+        if start is None and self._placement is None:
+            return
+        origin = self.track_plan.state[0, :3]
+        self._placement = None if start is None else Placement(origin, start)
+        self.plan = self._placement.of(self.track_plan) if self._placement else self.track_plan
+        if self._along_track is not None:
+            self.use(self._along_track)
+        self._prepared = ('', -1)
 
     def stop(self, reason: str) -> None:
         """Stops; the stop latches until `resume`, and so does its first reason."""

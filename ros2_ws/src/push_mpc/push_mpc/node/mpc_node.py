@@ -21,7 +21,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from push_mpc.estimate import PoseGate
-from push_mpc.loop import Controller, Mode, Tick, start_fault
+from push_mpc.loop import Controller, Mode, Tick, here_fault, start_fault
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
@@ -75,6 +75,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._states = self._outputs.of(interface.CONTROLLER_STATE)
         self._horizons = self._outputs.of(interface.HORIZON)
         on_change(self, self._settings, self._on_change)
+        self._nominal = interface.NOMINAL_TRAJECTORY.publisher(self)
         self._announce_plan()
         self._offer_services()
         self._start_timers()
@@ -95,7 +96,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._controller.change(settings)
 
     def _announce_plan(self) -> None:
-        self._nominal = interface.NOMINAL_TRAJECTORY.publisher(self)
+        """Publishes the plan where it lies now."""
         plan = conversions.nominal_message(self._controller.plan, self._settings)
         plan.header.stamp = self.get_clock().now().to_msg()
         self._nominal.publish(plan)
@@ -220,10 +221,21 @@ class MpcNode(Node):  # type: ignore[misc]
         answer.success = not answer.message
         if answer.success:
             self._scheduling = self._scheduling or enter_realtime(self._settings.mode)
-            self._controller.arm()
-            self._poses.restart()
+            self._arm()
             answer.message = f'armed; {self._scheduling}'
         return answer
+
+    def _arm(self) -> None:
+        if self._starts_here:
+            self._controller.arm(self._measured()[0])
+            self._announce_plan()
+        else:
+            self._controller.arm()
+        self._poses.restart()
+
+    @property
+    def _starts_here(self) -> bool:
+        return self._settings.start_from == 'here'
 
     def _on_stop(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         self._halt('stopped on request')
@@ -252,14 +264,19 @@ class MpcNode(Node):  # type: ignore[misc]
             why = self._poses.explanation()
             self._poses.rewind()
             return f'waiting for poses: {why}' if why else 'waiting for poses'
+        return self._misplaced()
+
+    def _misplaced(self) -> str:
+        """Why the plan cannot begin with object and tip where they are, empty if it can."""
         object_pose, tip = self._measured()
-        start = self._controller.plan.state[0]
-        fault = start_fault(self._settings.slider, start, object_pose, tip)
-        return (
-            f'{fault}; put it there, in simulation with {interface.RESET_TO_PLAN.name}'
-            if fault
-            else ''
-        )
+        slider, plan = self._settings.slider, self._controller.track_plan
+        if self._starts_here:
+            fault = here_fault(slider, self._settings.limits, plan, object_pose, tip)
+            advice = 'move the tip or the object'
+        else:
+            fault = start_fault(slider, plan.state[0], object_pose, tip)
+            advice = f'put it there, in simulation with {interface.RESET_TO_PLAN.name}'
+        return f'{fault}; {advice}' if fault else ''
 
     def _warning(self) -> str:
         """What is wrong while the controller is not stopped, empty if nothing is."""

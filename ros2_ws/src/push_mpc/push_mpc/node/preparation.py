@@ -55,7 +55,7 @@ class Preparation:
     ) -> PreparedModel | Exception:
         assert process.stdin is not None
         assert process.stdout is not None
-        _send(process.stdin, (self._settings, self._controller.plan, table, model_id))
+        _send(process.stdin, (self._settings, self._controller.track_plan, table, model_id))
         result: PreparedModel | Exception = pickle.load(process.stdout)
         return result
 

@@ -2,6 +2,7 @@
 
 from push_mpc.plan.consistent_plan import consistent_plan
 from push_mpc.plan.nominal import Plan
+from push_mpc.plan.placement import Placement
 from push_mpc.plan.planning import planned
 
-__all__ = ['Plan', 'consistent_plan', 'planned']
+__all__ = ['Placement', 'Plan', 'consistent_plan', 'planned']

@@ -5,6 +5,7 @@ import math
 import numpy as np
 from push_core import tracks
 from push_core.common import InputError
+from push_core.geometry import Array
 from push_core.physics import SafetyLimits
 
 from push_mpc.plan.nominal import Plan, TooTightError, flat_plan
@@ -30,7 +31,7 @@ def planned(settings: MpcSettings) -> Plan:
             'the limit of the pusher'
         )
     track = tracks.by_name(settings.track)
-    _check_workspace(track, settings.limits)
+    _check_workspace(track, settings)
     if settings.laps > 1 and not track.closed:
         raise InputError(
             f'track {track.name} is open and has no second lap; its end is '
@@ -127,11 +128,24 @@ def _gap(track: tracks.Track) -> float:
     return math.hypot(x[1] - x[0], y[1] - y[0])
 
 
-def _check_workspace(track: tracks.Track, limits: SafetyLimits) -> None:
+def _check_workspace(track: tracks.Track, settings: MpcSettings) -> None:
     """Checks the track's extent; a file in millimetres would make a plan of hours."""
+    limits = settings.limits
     x, y, _, _ = track.at(np.linspace(0.0, track.length, _PLACES, endpoint=False))
-    if np.abs(x).max() > limits.workspace_x or np.abs(y).max() > limits.workspace_y:
+    if settings.start_from == 'here':
+        _check_extent(track, np.hypot(x - x[0], y - y[0]), limits)
+    elif np.abs(x).max() > limits.workspace_x or np.abs(y).max() > limits.workspace_y:
         raise InputError(
             f'track {track.name} leaves the workspace of +-{limits.workspace_x:g} m by '
             f'+-{limits.workspace_y:g} m; {_unit_hint(max(np.abs(x).max(), np.abs(y).max()))}'
+        )
+
+
+def _check_extent(track: tracks.Track, away: Array, limits: SafetyLimits) -> None:
+    """Checks that a track that will be moved can fit; `away` (n,) [m] is from its start."""
+    diagonal = 2.0 * math.hypot(limits.workspace_x, limits.workspace_y)
+    if away.max() > diagonal:
+        raise InputError(
+            f'track {track.name} goes {away.max():.3g} m away from its start, more than the '
+            f'diagonal of the workspace of {diagonal:.3g} m; {_unit_hint(away.max())}'
         )

@@ -5,11 +5,11 @@ solver's units are millimetres, hundredths of a radian, and units in which input
 speeds are about one.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from push_core.common import InputError
-from push_core.geometry import Array
+from push_core.geometry import Array, rotation
 
 from push_mpc.qp.preview import Preview
 
@@ -101,6 +101,22 @@ class Stages:
         low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
         scale = np.concatenate([STATE_SCALE, space.scale])[:, None]
         return cls(space, -entries, preview.drift / scale[:NX], preview.target / scale, low, high)
+
+    def turned(self, angle: float) -> 'Stages':
+        """The stages of the plan turned in the plane by an angle [rad].
+
+        Of the states only x and y turn; A keeps their identity, and both have the same unit.
+        """
+        a, b = np.zeros((len(self), NX, NX)), self.entries[:, _A_ENTRIES:]
+        a[:, A_PATTERN] = self.entries[:, :_A_ENTRIES]
+        turn = rotation(angle)
+        a[:, :2, 2:] = turn @ a[:, :2, 2:]
+        effect = b.reshape(-1, NX, self.space.size).copy()
+        effect[:, :2] = turn @ effect[:, :2]
+        drift = self.drift.copy()
+        drift[:, :2] = turn @ drift[:, :2]
+        entries = np.concatenate([a[:, A_PATTERN], effect.reshape(b.shape)], axis=-1)
+        return replace(self, entries=entries, drift=drift)
 
     def __len__(self) -> int:
         return len(self.entries)

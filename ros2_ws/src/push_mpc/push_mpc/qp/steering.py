@@ -5,13 +5,13 @@ model of the object's displacement. `ForceSteering` (the Family of Modes) optimi
 and contact mode, with the limit surface of the object.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from push_core.geometry import Array
 
 from push_mpc.motion import TravelModel
-from push_mpc.plan import Plan
+from push_mpc.plan import Placement, Plan
 from push_mpc.qp.stages import Stages
 from push_mpc.qp.tracking_qp import TrackingQP
 
@@ -27,6 +27,11 @@ class LinearisedPlan:
 
     plan: Plan
     stages: tuple[Stages, ...]
+
+    def placed(self, placement: Placement) -> 'LinearisedPlan':
+        """The same along the plan moved; the equations of motion do not depend on the place."""
+        stages = tuple(each.turned(placement.turn) for each in self.stages)
+        return replace(self, plan=placement.of(self.plan), stages=stages)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,12 @@ class MpcSettings(ControllerSettings):
         0.08, "speed of the object's centre along the track", unit='m/s', low=0.001, high=2.0
     )
     laps: int = setting(1, 'rounds of a closed track', low=1, high=1000)
+    start_from: str = setting(
+        'plan',
+        'plan: the object has been put at the start of the track; here: the track is moved to '
+        'begin where the object lies',
+        choices=('plan', 'here'),
+    )
     planner: str = setting(
         'auto',
         'flat: sticking at p_y = 0; optimal: collocation, seconds; auto: flat where it exists',

@@ -1,0 +1,32 @@
+"""A model as the loop uses it: table, plan, and the QP data along the plan."""
+
+from dataclasses import dataclass, replace
+
+from push_mpc.plan import Placement, Plan
+from push_mpc.qp import LinearisedPlan
+from push_mpc.table import Table
+
+
+@dataclass(frozen=True)
+class PreparedModel:
+    """What is computed once for each plan and model.
+
+    Attributes:
+        table: the model.
+        plan: made with it.
+        linearised: QP data along the plan.
+        model_id: of the model.
+    """
+
+    table: Table
+    plan: Plan
+    linearised: LinearisedPlan
+    model_id: str
+
+    def placed(self, placement: Placement) -> 'PreparedModel':
+        """The same with the plan moved."""
+        return replace(
+            self,
+            plan=placement.of(self.plan),
+            linearised=self.linearised.placed(placement),
+        )
