@@ -53,8 +53,12 @@ class Cell:
         self.plant = Plant(profile('irb120'), settings.slider)
         self.controller = Controller(settings, settings.slider, _plan_of(settings))
         self.controller.use(self.controller.prepare_model(table, 'table'))
+        self.reset()
+
+    def reset(self) -> None:
+        """Puts the object at the start of the plan."""
         start = self.controller.plan.state[0]
-        tip = settings.slider.tip_position(start[:3], start[3])
+        tip = self.controller.settings.slider.tip_position(start[:3], start[3])
         self.seen = self.plant.reset(start[:3], tip, seed=1)
 
     def tick(self, object_pose: Array | None = None) -> Tick:

@@ -1,14 +1,17 @@
 """Every controller of the registry."""
 
+import math
 from dataclasses import replace
 from pkgutil import resolve_name
 
 import numpy as np
 import pytest
+from push_core.common.settings import replaced
 from push_mpc.loop.controller import Mode
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.node_settings import mpc_settings
+from push_sim.settings.plant_settings import PerturbationKind
 
 
 @pytest.mark.parametrize('name', CONTROLLERS)
@@ -29,3 +32,64 @@ def test_its_steering_has_solvers_of_its_own(name: str) -> None:
     first, second = (steering_class(settings, mpc_settings('irb120').slider) for _ in range(2))
     assert first.solvers
     assert not {*map(id, first.solvers)} & {*map(id, second.solvers)}
+
+
+CHANGED = {
+    'weights.contact': 100.0,
+    'force_weights.contact': 3.0,
+    'normal_speed_limit': 0.09,
+    'tangential_speed_limit': 0.04,
+    'limits.speed': 0.1,
+    'limits.acceleration': 3.0,
+    'disturbance_length': 0.02,
+}
+
+
+def run(cell) -> list[list[float]]:
+    """Commands of the first second of a run, with a kick on the way."""
+    cell.controller.arm()
+    velocities = []
+    for number in range(100):
+        if number == 60:
+            cell.disturb(PerturbationKind.TANGENTIAL, 0.01)
+        velocities.append(cell.tick().velocity.tolist())
+    return velocities
+
+
+@pytest.mark.parametrize('name', CONTROLLERS)
+def test_changed_settings_are_followed_as_if_the_controller_had_been_made_with_them(
+    name: str, make_cell
+) -> None:
+    settings = replace(mpc_settings('irb120'), controller=name)
+    changed = replaced(settings, CHANGED)
+    cell = make_cell(settings)
+    before = run(cell)
+    cell.controller.change(changed)
+    cell.reset()
+    after = run(cell)
+    assert after == run(make_cell(changed))
+    assert after != before
+    assert max(math.hypot(*velocity) for velocity in after) <= 0.1 + 1e-9
+    assert max(math.hypot(*velocity) for velocity in before) > 0.1
+
+
+@pytest.mark.parametrize('name', CONTROLLERS)
+def test_a_run_depends_on_none_before_it(name: str, make_cell) -> None:
+    cell = make_cell(replace(mpc_settings('irb120'), controller=name))
+    first = run(cell)
+    cell.reset()
+    assert run(cell) == first
+
+
+@pytest.mark.parametrize('name', CONTROLLERS)
+def test_a_model_that_was_prepared_before_a_change_keeps_the_changed_limits(
+    name: str, make_cell, table
+) -> None:
+    cell = make_cell(replace(mpc_settings('irb120'), controller=name))
+    prepared = cell.controller.prepare_model(table, 'earlier')
+    cell.controller.change(replaced(cell.controller.settings, CHANGED))
+    cell.controller.use(prepared)
+    fresh = cell.controller.prepare_model(table, 'later').linearised.stages
+    for one, other in zip(cell.controller._model.linearised.stages, fresh, strict=True):
+        assert np.array_equal(one.high, other.high)
+        assert np.array_equal(one.low, other.low)

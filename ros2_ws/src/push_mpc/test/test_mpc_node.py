@@ -491,14 +491,18 @@ def test_a_node_in_lockstep_says_that_there_is_no_clock(cell, started) -> None:
     cell.call_until('start', lambda answer: 'nothing on /clock' in answer.message)
 
 
-def test_what_neither_plan_nor_solver_is_made_of_changes_during_a_run(cell, started) -> None:
+def test_what_neither_plan_nor_table_is_made_of_changes_during_a_run(cell, started) -> None:
     started(LINE)
     cell.begin()
     assert cell.set(**{'recontact.gap': 0.004, 'recontact.speed': 0.1}) == ''
     assert cell.set(disturbance_length=0.0) == ''
     refused = cell.set(**{'recontact.gap': 0.003, 'recontact.speed': 9.0})
     assert 'parameter recontact.speed is 9, must be between 0.02 and 2 m/s' in refused
-    assert 'read-only' in cell.set(**{'weights.contact': 100.0})
+    assert cell.set(**{'weights.contact': 100.0, 'normal_speed_limit': 0.2}) == ''
+    too_slow = cell.set(**{'weights.contact': 50.0, 'limits.speed': 0.07})
+    assert 'needs a pusher speed of 0.080 m/s' in too_slow
+    assert 'read-only while the node runs; start it again' in cell.set(horizon_steps=30)
+    assert 'start it with mode:=lockstep' in cell.set(use_sim_time=True)
     # a shorter patience with missing poses takes effect at once
     assert cell.set(pose_loss=0.2) == ''
     assert cell.mode() == ControllerState.TRACKING

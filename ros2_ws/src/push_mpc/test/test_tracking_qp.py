@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX, InputSpace, Stages
-from push_mpc.qp.tracking_qp import TrackingQP
+from push_mpc.qp.tracking_qp import QPWeights, TrackingQP
 from push_sim.settings.plant_settings import PerturbationKind
 from scipy.optimize import linprog
 
@@ -16,6 +16,7 @@ SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2), ('v_n [m/s]
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
 CHANGE_WEIGHTS = np.array([2.0, 2.0])
+WEIGHTS = QPWeights(STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
 BEFORE = np.array([0.01, -0.02])
 DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
@@ -76,7 +77,7 @@ def stages_of(problem):
 
 
 def solved(problem, times=1, widening=0.0):
-    qp = TrackingQP(len(problem[0]), SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
+    qp = TrackingQP(len(problem[0]), SPACE, WEIGHTS)
     made = stages_of(problem)
     for _ in range(times):
         qp.prepare(made, np.arange(6), made)
@@ -117,6 +118,25 @@ def test_inputs_stay_within_their_bounds(problem) -> None:
 def test_solving_again_starts_from_the_solution(problem) -> None:
     assert solved(problem, times=2).iterations <= solved(problem).iterations
     assert np.allclose(solved(problem, times=2).inputs, solved(problem).inputs, atol=1e-6)
+
+
+def test_changed_weights_count_as_if_the_solver_had_been_made_with_them(
+    problem, impossible
+) -> None:
+    light = QPWeights(np.array([6000.0, 0.0, 1.0, 10.0]), np.array([1.0, 3.0]), np.zeros(2))
+    for each in (problem, impossible):
+        made = stages_of(each)
+        fresh, changed = TrackingQP(6, SPACE, light), TrackingQP(6, SPACE, WEIGHTS)
+        for qp in (fresh, changed):
+            qp.prepare(made, np.arange(6), made)
+        changed.solve(each[5], 0.0, DISTURBANCE, BEFORE)
+        changed.weigh(light)
+        changed.forget()
+        first, second = (
+            qp.solve(each[5], 0.0, DISTURBANCE, BEFORE).inputs.copy() for qp in (fresh, changed)
+        )
+        assert np.array_equal(first, second)
+        assert not np.allclose(second, solved(each).inputs, atol=1e-3)
 
 
 @pytest.fixture
@@ -178,7 +198,7 @@ def test_a_solution_that_is_refused_names_the_constraint_that_it_violates_most(
     impossible, monkeypatch
 ) -> None:
     monkeypatch.setitem(OSQP_SETTINGS, 'max_iter', 5)
-    qp = TrackingQP(6, SPACE, STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
+    qp = TrackingQP(6, SPACE, WEIGHTS)
     made = stages_of(impossible)
     qp.prepare(made, np.arange(6), made)
     assert not qp.solve(impossible[5], 0.0, DISTURBANCE, BEFORE).usable

@@ -31,7 +31,9 @@ def test_without_overrides_the_parameters_are_the_defaults(made_node) -> None:
     assert node.get_parameter('engine.power').value == 2.0
     described = node.describe_parameter('engine.power')
     assert described.description == 'power'
-    assert described.additional_constraints == 'between 0 and 10 W'
+    assert described.additional_constraints == (
+        'between 0 and 10 W; read-only while the node runs'
+    )
 
 
 def test_the_command_line_overrides_by_dotted_name(made_node) -> None:
@@ -82,7 +84,10 @@ def test_what_every_ros_node_knows_is_no_unknown_parameter(made_node) -> None:
 def test_parameters_stay_as_they_were_at_the_start(made_node) -> None:
     node = made_node()
     declared(node, Car())
-    assert not node.set_parameters([Parameter('wheels', value=3)])[0].successful
+    refused = node.set_parameters([Parameter('wheels', value=3)])[0]
+    assert refused.reason == (
+        'parameter wheels is read-only while the node runs; start it again to change it'
+    )
     assert node.get_parameter('wheels').value == 4
 
 

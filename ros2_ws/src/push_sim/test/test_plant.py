@@ -1,6 +1,7 @@
 import pickle
 import subprocess
 import sys
+from contextlib import closing
 from dataclasses import replace
 
 import numpy as np
@@ -316,3 +317,41 @@ def test_the_latency_must_fit_the_substep(slider: Slider) -> None:
     sensor = replace(settings.sensor, latency=0.0033)
     with pytest.raises(InputError, match=r'sensor\.latency'):
         Plant(replace(settings, sensor=sensor), slider)
+
+
+@pytest.mark.parametrize('variation', [0.0, 0.2])
+def test_changed_friction_counts_as_if_the_plant_had_been_made_with_it(
+    variation: float, engine, slider, start, weave
+) -> None:
+    if variation and engine == 'quasi_static':
+        pytest.skip('the quasi-static engine has an even table')
+    even = {'world.engine': engine, 'world.friction_variation': variation}
+    settings = replaced(profile('ideal'), even)
+    rough = replaced(settings, {'world.friction_ground': 0.6, 'world.friction_pusher': 0.02})
+    with closing(Plant(settings, slider)) as plant, closing(Plant(rough, slider)) as other:
+        before = run(plant, start, weave)
+        plant.change(rough)
+        after = run(plant, start, weave)
+        assert np.array_equal(after, run(other, start, weave))
+        assert not np.array_equal(after, before)
+
+
+def test_friction_changes_in_the_middle_of_a_push(slider, start, weave) -> None:
+    settings = profile('ideal')
+    with closing(Plant(settings, slider)) as plant:
+        plant.reset(*start, 3)
+        commanded(plant, weave, 0, 50)
+        kept = plant.snapshot()
+        usual = commanded(plant, weave, 50, 80)
+        plant.restore(kept)
+        plant.change(replaced(settings, {'world.friction_pusher': 0.0}))
+        slippery = commanded(plant, weave, 50, 80)
+    assert not same(usual, slippery)
+
+
+def test_a_plant_refuses_to_change_what_it_was_made_of(slider) -> None:
+    settings = profile('ideal')
+    with closing(Plant(settings, slider)) as plant:
+        for name, value in (('world.mass_error', 0.1), ('actuator.lag', 0.2)):
+            with pytest.raises(InputError, match='cannot change'):
+                plant.change(replaced(settings, {name: value}))

@@ -254,7 +254,8 @@ def test_noise_and_perturbation_change_while_it_runs_and_the_rest_does_not(
     client.wait(lambda: len(client.perturbations) == 1)
     refused = client.set(**{'sensor.position_noise': 0.0, 'sensor.dropout': 1.5})
     assert 'parameter sensor.dropout is 1.5, must be between 0 and 0.9' in refused
-    assert 'read-only' in client.set(**{'world.friction_ground': 0.5})
+    assert client.set(**{'world.friction_ground': 0.5, 'world.friction_pusher': 0.3}) == ''
+    assert 'read-only' in client.set(**{'world.mass_error': 0.5})
     assert client.set(**{'perturbation.kind': 'none'}) == ''
 
 

@@ -1,8 +1,10 @@
 """The ticks of a recorded controller: inputs and command of each."""
 
-from collections.abc import Iterator, Sequence
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from push_core.common import InputError
@@ -19,6 +21,7 @@ from push_bag.run.conversions import (
     positions,
     velocities,
 )
+from push_bag.run.parameter_changes import merged, parameter_changes
 from push_bag.run.topic_table import TopicTable
 
 OBJECT_POSE = interface.OBJECT_POSE.short_name
@@ -26,6 +29,7 @@ TIP_POSE = interface.PUSHER_POSE.short_name
 COMMAND = interface.PUSHER_VELOCITY_CMD.short_name
 STATE = interface.CONTROLLER_STATE.short_name
 PLAN = interface.NOMINAL_TRAJECTORY.short_name
+_CONTROLLER = interface.CONTROLLER_STATE.publishers[0]
 TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
 
@@ -44,6 +48,7 @@ class RecordedTick:
         object_pose: (3,) measured [m, m, rad]; None without poses, or if the bag lacks it.
         tip: (2,) measured [m]; None likewise.
         velocity: (2,) commanded [m/s]; None if no command was sent or recorded.
+        changes: parameters of the controller that changed since the tick before, by name.
     """
 
     stamp: int
@@ -56,6 +61,7 @@ class RecordedTick:
     object_pose: Array | None
     tip: Array | None
     velocity: Array | None
+    changes: Mapping[str, Any]
 
 
 class RecordedRun:
@@ -80,12 +86,18 @@ class RecordedRun:
             STATE: TopicTable(TICK_FIELDS, 3, self._tick_values),
         }
         self._plans: list[Record] = []
+        events: list[Record] = []
+        controller = ''
         for record in self.reader.records():
             name = short_name(record.topic.name)
             if name == PLAN:
                 self._plans.append(record)
             elif name in tables:
                 tables[name].add(record)
+            if name == STATE:
+                controller = record.topic.name.removesuffix(STATE) + _CONTROLLER
+            if name == interface.PARAMETER_EVENTS.short_name:
+                events.append(record)
         rows = {name: table.in_log_order() for name, table in tables.items()}
         self._states = rows.pop(STATE)
         self._names = [self._names[row] for row in tables[STATE].log_order.tolist()]
@@ -96,11 +108,17 @@ class RecordedRun:
         }
         if not self._states.stamp.size:
             raise InputError(f'{path} holds no ticks of a controller')
+        changes = parameter_changes(events)
+        self._changes = [change for change in changes if change.node == controller]
+        self._changed_at = [change.published for change in self._changes]
 
     def ticks(self) -> Iterator[RecordedTick]:
         """All ticks in the order in which they were computed."""
+        since = 0
         for row in np.argsort(self._states.published, kind='stable').tolist():
-            yield self._tick(row)
+            until = bisect_left(self._changed_at, int(self._states.published[row]))
+            yield self._tick(row, merged(self._changes[since:until]))
+            since = until
 
     def plan_start(self, tick: RecordedTick) -> Array:
         """Pose (3,) at which the plan begins that was in effect at a tick.
@@ -117,7 +135,7 @@ class RecordedRun:
     def __len__(self) -> int:
         return self._states.stamp.size
 
-    def _tick(self, row: int) -> RecordedTick:
+    def _tick(self, row: int, changes: Mapping[str, Any]) -> RecordedTick:
         stamp, published = int(self._states.stamp[row]), int(self._states.published[row])
         mode, exposure, now = self._states.values[row].tolist()
         values = {name: self._values(name, stamp, published) for name in self._rows}
@@ -133,6 +151,7 @@ class RecordedRun:
             object_pose=values[OBJECT_POSE],
             tip=values[TIP_POSE],
             velocity=values[COMMAND],
+            changes=changes,
         )
 
     def _values(self, name: str, stamp: int, published: int) -> Array | None:

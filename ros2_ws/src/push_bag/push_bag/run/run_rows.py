@@ -27,6 +27,7 @@ from push_bag.run.conversions import (
     true_poses,
     velocities,
 )
+from push_bag.run.parameter_changes import ParameterChange, parameter_changes
 from push_bag.run.series import (
     NEVER,
     STATE_COLUMNS,
@@ -47,6 +48,7 @@ RARE = (
     interface.PERTURBATION.short_name,
     interface.HORIZON.short_name,
     interface.RUN_END.short_name,
+    interface.PARAMETER_EVENTS.short_name,
 )
 """Topics that are read as messages."""
 
@@ -134,6 +136,7 @@ class RunRows:
                 for each in self._within(interface.PERTURBATION, start)
             ),
             horizons=tuple(self._within(interface.HORIZON, start)),
+            changes=tuple(self._changes(start)),
         )
 
     @property
@@ -184,6 +187,13 @@ class RunRows:
     def _within(self, topic: GraphTopic, start: Start) -> list[Record]:
         """The messages of a rare topic that belong to a start."""
         return [each for each in self._sorted(topic) if start.begin <= each.log_ns < start.end]
+
+    def _changes(self, start: Start) -> list[ParameterChange]:
+        """Changes of parameters of this cell's nodes until the end of a start."""
+        namespace = self._sources.get(STATE, STATE).removesuffix(STATE)
+        events = self._sorted(interface.PARAMETER_EVENTS)
+        until = parameter_changes(each for each in events if each.log_ns <= start.ran[1])
+        return [each for each in until if each.node.rpartition('/')[0] + '/' == namespace]
 
     def _latest(self, topic: GraphTopic, start: Start) -> Any:
         """The message in effect at the end of a start; None without one."""

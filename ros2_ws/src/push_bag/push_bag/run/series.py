@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from push_msgs.msg import ControllerState
 
 from push_bag.file import Record, Traffic
+from push_bag.run.parameter_changes import ParameterChange
 
 Floats = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
@@ -150,6 +151,7 @@ class RunSeries:
         model: None where none was recorded.
         perturbations: in order.
         horizons: planned paths, not decoded; see `Horizons`.
+        changes: of the nodes' parameters until the end of the run.
     """
 
     facts: Mapping[str, str]
@@ -167,6 +169,7 @@ class RunSeries:
     model: ModelFacts | None
     perturbations: tuple[PerturbationEvent, ...]
     horizons: tuple[Record, ...]
+    changes: tuple[ParameterChange, ...]
 
     def state(self, name: str) -> Floats:
         """The column (n,) of `states` with this name, see STATE_COLUMNS."""

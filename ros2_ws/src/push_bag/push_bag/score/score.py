@@ -89,6 +89,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         'limited': limited(run),
         'messages': message_counts(run),
         'left_out': left_out(run),
+        'parameter_changes': parameter_changes(run),
     }
     score['reasons'] = reasons(run, score)
     without_nan: dict[str, Any] = finite(score)
@@ -140,6 +141,23 @@ def holds(run: RunSeries) -> int | None:
         return None
     holding = run.state('mode') == ControllerState.HOLDING
     return int(np.count_nonzero(np.diff(np.concatenate([[False], holding]).astype(np.int8)) > 0))
+
+
+def parameter_changes(run: RunSeries) -> list[dict[str, Any]]:
+    """Time after the first tick [s], node and values of each change of parameters.
+
+    Changes before the run, which are in effect too, have negative times.
+    """
+    ticks = run.states.published
+    first = int(ticks[0]) if ticks.size else 0
+    return [
+        {
+            'time_s': (change.published - first) * 1e-9,
+            'node': change.node.rpartition('/')[2],
+            'parameters': dict(change.values),
+        }
+        for change in run.changes
+    ]
 
 
 def _verdict(run: RunSeries, reference: Reference, tracking: Tracking) -> dict[str, Any]:

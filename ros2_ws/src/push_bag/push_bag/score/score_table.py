@@ -35,6 +35,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('holds', _known(score, 'holds', str)),
         ('contact losses', _known(score, 'contact_losses', str)),
         ('limited ticks', _known(score, 'limited', _counts)),
+        ('changed', _changed(score.get('parameter_changes', ()))),
         ('left out', _left_out(score['left_out'])),
         ('bag', _bag(score)),
     ]
@@ -69,6 +70,15 @@ def _laps(laps: Sequence[Mapping[str, Any]]) -> str:
     """Mean error of each lap; empty for one lap."""
     means = '  '.join(_number(lap['mean_mm']) for lap in laps)
     return f'mean {means}  mm' if len(laps) > 1 else ''
+
+
+def _changed(changes: Sequence[Mapping[str, Any]]) -> str:
+    """When which parameters changed; empty without a change."""
+    return '; '.join(
+        f'{change["time_s"]:.2f} s {change["node"]}.{name}={value}'
+        for change in changes
+        for name, value in change['parameters'].items()
+    )
 
 
 def _left_out(topics: Mapping[str, Mapping[str, int]]) -> str:

@@ -2,20 +2,24 @@
 
 import argparse
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from push_core.common import Described, Parser, flatten, run_command
+from push_mpc import settings as mpc
+from push_sim import node as sim
 
 from push_bringup.setup import node_defaults
+
+_CHANGEABLE = {'sim_node': sim.is_changeable, 'mpc_node': mpc.is_changeable}
 
 HEAD = """# Parameters
 
 Every parameter of every node, with its default in the `irb120` profile. Set one with
 `cell -p NAME:=VALUE` (or `NODE.NAME:=VALUE` where several nodes share the name), in a parameter
 file, or with `--ros-args -p NAME:=VALUE` on a node. They are read at the start, which an
-unknown name or a value out of range fails; docs/operating.md names those that change during a
-run. Made by `ros2 run push_bringup parameters`.
+unknown name or a value out of range fails; those with a * may change during a run. Made by
+`ros2 run push_bringup parameters`.
 """
 
 
@@ -34,13 +38,16 @@ def _work(_arguments: argparse.Namespace) -> None:
 
 
 def _section(node: str, settings: Any) -> str:
-    rows = ''.join(_rows(flatten(settings)))
+    rows = ''.join(_rows(flatten(settings), _CHANGEABLE.get(node, lambda _: False)))
     return f'\n## {node}\n\n| name | default | allowed | meaning |\n|---|---|---|---|\n{rows}'
 
 
-def _rows(values: dict[str, tuple[Any, Described]]) -> Iterator[str]:
+def _rows(
+    values: dict[str, tuple[Any, Described]], changeable: Callable[[str], bool]
+) -> Iterator[str]:
     for name, (value, described) in values.items():
-        yield f'| `{name}` | {_text(value)} | {_allowed(value, described)} | {described.text} |\n'
+        shown = f'`{name}` *' if changeable(name) else f'`{name}`'
+        yield f'| {shown} | {_text(value)} | {_allowed(value, described)} | {described.text} |\n'
 
 
 def _allowed(value: Any, described: Described) -> str:

@@ -6,14 +6,14 @@ delay predictor is fed the recorded commands, not the recomputed ones, because t
 
 import math
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from push_bag.replay import Changes, Recomputed
 from push_bag.run import RecordedRun, RecordedTick
-from push_core.common import InputError
+from push_core.common import InputError, replaced
 from push_core.geometry import Array
 from push_gp.models import ANALYTICAL, PushModel, model_named
 from push_mpc.loop import Controller, Mode
@@ -46,8 +46,9 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
     with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
         files = _unpacked(run, Path(scratch))
         parameters = _parameters(run, changes, files)
+        kept = {name.removeprefix('mpc_node.') for name in changes.params}
         models = _models_of(run, parameters, files)
-        controller = RecomputingController(parameters, models, run.plan_start)
+        controller = RecomputingController(parameters, models, run.plan_start, kept)
     return _compared(run, controller)
 
 
@@ -55,7 +56,11 @@ class RecomputingController(Controller):
     """A controller that computes commands but predicts with the recorded ones."""
 
     def __init__(
-        self, parameters: CellParameters, model_by_id: ModelById, plan_start: PlanStart
+        self,
+        parameters: CellParameters,
+        model_by_id: ModelById,
+        plan_start: PlanStart,
+        kept: Collection[str] = (),
     ) -> None:
         """Plans from the parameters.
 
@@ -63,9 +68,11 @@ class RecomputingController(Controller):
             parameters: of the cell.
             model_by_id: the model to use where the run used the one of an id.
             plan_start: where the plan began in the run.
+            kept: parameters that stay although they changed during the run.
         """
         super().__init__(parameters.mpc, parameters.mpc.slider, planned(parameters.mpc))
         self._side = parameters.mpc.slider.side
+        self._kept = kept
         self._model_by_id = model_by_id
         self._plan_start = plan_start if parameters.mpc.start_from == 'here' else None
         self._recorded_id = ''
@@ -90,6 +97,9 @@ class RecomputingController(Controller):
 
     def _prepare_for(self, tick: RecordedTick) -> None:
         """Takes the model and starts where the recorded controller did."""
+        changes = {name: tick.changes[name] for name in tick.changes if name not in self._kept}
+        if changes:
+            self.change(replaced(self.settings, changes))
         if tick.model_id != self._recorded_id:
             self._take_model(tick.model_id)
         begins = tick.mode == Mode.ARMED and self.mode != Mode.ARMED

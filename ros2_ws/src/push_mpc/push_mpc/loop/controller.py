@@ -2,6 +2,7 @@
 
 import math
 import time as clock
+from dataclasses import replace
 from pkgutil import resolve_name
 
 import numpy as np
@@ -78,17 +79,28 @@ class Controller:
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""
         first = self._model is None
-        self._along_track = model
+        # limits may have changed since it was prepared
+        bounded = self._steering.bounded(model.linearised)
+        model = self._along_track = replace(model, linearised=bounded)
         self._model = model.placed(self._placement) if self._placement else model
         if first:
-            self._solve(model.plan.state[0], 0.0)
+            self._warm_up()
 
     def change(self, settings: ControllerSettings) -> None:
-        """Uses other recontact settings and filter length from the next tick on.
+        """Uses other settings from the next tick on; call it between two ticks.
 
-        Nothing else may differ: the solver is set up for it.
+        Only weights, speed limits, recontact settings and filter length may differ: plan and
+        sparsity of the QP are made of the others.
         """
         self.settings = settings
+        self._steering.change(settings)
+        if self._model is not None and self._along_track is not None:
+            sample = self._prepared[1]
+            self._prepared = ('', -1)
+            self.use(self._along_track)
+            self._prepare(self._model, sample)
+            if self.mode not in FOLLOWING:
+                self._warm_up()
         self._disturbance.length = settings.disturbance_length
         if settings.disturbance_length == 0.0:
             self._disturbance.reset()
@@ -106,6 +118,7 @@ class Controller:
         self._sent = _STILL
         self._predictor.reset()
         self._disturbance.reset()
+        self._warm_up()
 
     def _place(self, start: Array | None) -> None:
         """Moves plan and QP data; before the run, since it takes time by the length of both."""
@@ -163,6 +176,13 @@ class Controller:
             tick.planned = None
         self._remember(tick.velocity, now)
         return tick
+
+    def _warm_up(self) -> None:
+        """Solves at the start of the plan, so that a run depends on none before it."""
+        if self._model is not None:
+            for solver in self._steering.solvers:
+                solver.forget()
+            self._solve(self._model.plan.state[0], 0.0)
 
     def _remember(self, velocity: Array, now: float) -> None:
         """Records a command for the predictor; before and after tracking all are zero."""

@@ -31,8 +31,8 @@ from push_mpc.node.pose_pair import PosePair
 from push_mpc.node.preparation import Preparation
 from push_mpc.node.recorder_watch import RecorderWatch
 from push_mpc.node.watchdog import Watchdog
-from push_mpc.plan import planned
-from push_mpc.settings import CHANGEABLE, MpcSettings, mpc_settings
+from push_mpc.plan import check_pushes, planned
+from push_mpc.settings import MpcSettings, is_changeable, mpc_settings
 from push_mpc.table import Tabulated
 
 FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
@@ -47,7 +47,7 @@ class MpcNode(Node):  # type: ignore[misc]
     def __init__(self) -> None:
         super().__init__('mpc_node', automatically_declare_parameters_from_overrides=True)
         bundles = override(self, 'profile', 'irb120'), override(self, 'preset', 'tuned')
-        self._settings = declared(self, mpc_settings(*bundles), CHANGEABLE)
+        self._settings = declared(self, mpc_settings(*bundles), is_changeable)
         self._lockstep = self._settings.mode == 'lockstep'
         self._controller = Controller(
             self._settings, self._settings.slider, planned(self._settings)
@@ -74,7 +74,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._commands = self._outputs.of(interface.PUSHER_VELOCITY_CMD)
         self._states = self._outputs.of(interface.CONTROLLER_STATE)
         self._horizons = self._outputs.of(interface.HORIZON)
-        on_change(self, self._settings, self._on_change)
+        on_change(self, self._settings, self._on_change, self._check_change)
         self._nominal = interface.NOMINAL_TRAJECTORY.publisher(self)
         self._announce_plan()
         self._offer_services()
@@ -90,6 +90,9 @@ class MpcNode(Node):  # type: ignore[misc]
         self._preparation.close()
         self._model.close()
         super().destroy_node()
+
+    def _check_change(self, settings: MpcSettings) -> None:
+        check_pushes(self._controller.plan, settings)
 
     def _on_change(self, settings: MpcSettings) -> None:
         self._settings = settings

@@ -3,6 +3,6 @@
 from push_mpc.plan.consistent_plan import consistent_plan
 from push_mpc.plan.nominal import Plan
 from push_mpc.plan.placement import Placement
-from push_mpc.plan.planning import planned
+from push_mpc.plan.planning import check_pushes, planned
 
-__all__ = ['Placement', 'Plan', 'consistent_plan', 'planned']
+__all__ = ['Placement', 'Plan', 'check_pushes', 'consistent_plan', 'planned']

@@ -38,7 +38,7 @@ def planned(settings: MpcSettings) -> Plan:
             f'{1e3 * _gap(track):.4g} mm from its start'
         )
     plan = _plan(settings, track)
-    _check_pushes(plan, settings)
+    check_pushes(plan, settings)
     return plan
 
 
@@ -63,8 +63,12 @@ def _optimal(task: PlanningTask) -> Plan:
     return optimal_plan(task)
 
 
-def _check_pushes(plan: Plan, settings: MpcSettings) -> None:
-    """Checks the planned pusher motion against the limits."""
+def check_pushes(plan: Plan, settings: MpcSettings) -> None:
+    """Checks the planned pusher motion against the limits.
+
+    Raises:
+        InputError: names the limit that the plan exceeds, and where.
+    """
     tracked = plan.time <= plan.duration
     v_n, v_t = np.abs(plan.input[tracked].T)
     p_y = np.abs(plan.state[tracked, 3])

@@ -18,7 +18,7 @@ from push_mpc.qp.preview import Preview
 from push_mpc.qp.solution import Solution
 from push_mpc.qp.stages import InputSpace, Stages
 from push_mpc.qp.steering import LinearisedPlan, Move
-from push_mpc.qp.tracking_qp import TrackingQP
+from push_mpc.qp.tracking_qp import QPWeights, TrackingQP
 from push_mpc.settings import ControllerSettings
 
 FAMILY = (ContactMode.STICKING, ContactMode.SLIDING_LEFT, ContactMode.SLIDING_RIGHT)
@@ -40,26 +40,35 @@ class ForceSteering:
         self._motion = ContactForce(slider)
         self._space = _space(slider)
         self.mode = ContactMode.STICKING
-        weights = settings.force_weights
-        state_weights = [weights.position_x, weights.position_y, weights.heading, weights.contact]
-        input_weights = [weights.normal, weights.tangential, weights.slip]
+        weights = _weights(settings, self._space)
         self.solvers = tuple(
-            TrackingQP(
-                settings.horizon_steps,
-                self._space,
-                np.array(state_weights),
-                np.array(input_weights),
-                weights.change * (_SPEED / self._space.scale) ** 2,
-            )
-            for _ in FAMILY
+            TrackingQP(settings.horizon_steps, self._space, weights) for _ in FAMILY
         )
 
     def linearised(self, _model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
         """See `Steering.linearised`; the limit surface is the slider's, whatever the model."""
         forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
         preview = Preview.of(forces, self._motion, stride)
-        stages = [Stages.of(self._space, preview, self._limits(preview, mode)) for mode in FAMILY]
-        return LinearisedPlan(forces, tuple(stages))
+        stages = [
+            Stages.of(self._space, preview, self._limits(preview.contact, forces.input, mode))
+            for mode in FAMILY
+        ]
+        return LinearisedPlan(forces, preview.contact, tuple(stages))
+
+    def change(self, settings: ControllerSettings) -> None:
+        """See `Steering.change`."""
+        self._settings = settings
+        for solver in self.solvers:
+            solver.weigh(_weights(settings, self._space))
+
+    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
+        """See `Steering.bounded`."""
+        forces = linearised.plan.input
+        stages = [
+            stages.within(self._limits(linearised.contact, forces, mode))
+            for stages, mode in zip(linearised.stages, FAMILY, strict=True)
+        ]
+        return replace(linearised, stages=tuple(stages))
 
     def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """See `Steering.prepare`."""
@@ -98,20 +107,29 @@ class ForceSteering:
         """
         return velocity / max(1.0, float(velocity[0]) / self._settings.normal_speed_limit)
 
-    def _limits(self, preview: Preview, mode: ContactMode) -> tuple[Array, Array]:
+    def _limits(self, contact: Array, forces: Array, mode: ContactMode) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
         slider = self._motion.slider
-        nominal = np.column_stack([preview.contact, preview.input @ _limited(slider).T])
+        nominal = np.column_stack([contact, forces @ _limited(slider).T])
         slip = self._settings.tangential_speed_limit
         # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
         low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
         high = np.tile([0.5 * slider.side, 0.0, 0.0, np.inf, 0.0], (len(nominal), 1))
-        high[:, 1] = self._motion.normal_force(preview.contact, self._settings.normal_speed_limit)
+        high[:, 1] = self._motion.normal_force(contact, self._settings.normal_speed_limit)
         if mode == ContactMode.SLIDING_LEFT:
             low[2], high[:, 4] = 0.0, slip
         if mode == ContactMode.SLIDING_RIGHT:
             high[:, 3], low[4] = 0.0, -slip
         return low - nominal, high - nominal
+
+
+def _weights(settings: ControllerSettings, space: InputSpace) -> QPWeights:
+    weights = settings.force_weights
+    return QPWeights(
+        np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
+        np.array([weights.normal, weights.tangential, weights.slip]),
+        weights.change * (_SPEED / space.scale) ** 2,
+    )
 
 
 def _limited(slider: Slider) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 from push_core.geometry import Array
 from scipy import sparse
 
-from push_mpc.qp.solver import run, set_up
+from push_mpc.qp.solver import forget, run, set_up
 
 _WEIGHT = 100.0
 """w, in the solver's units. With ten times as much, one QP of three needs more than the iteration
@@ -34,7 +34,7 @@ class RelaxedQP:
             soft: indices of the rows that may be violated (k,).
         """
         rows, size = matrix.shape
-        violations = 2 * soft.size
+        self._violations = violations = 2 * soft.size
         self._entries_given = matrix.nnz
         self._linear = np.concatenate([np.zeros(size), np.full(violations, _WEIGHT)])
         self._low = np.zeros(rows + violations)
@@ -44,6 +44,14 @@ class RelaxedQP:
         self._solver = set_up(
             np.concatenate([cost, np.zeros(violations)]), self._linear.copy(), wider
         )
+
+    def weigh(self, cost: Array) -> None:
+        """Changes the diagonal of the quadratic cost of the QP (n,)."""
+        self._solver.update(Px=np.concatenate([cost, np.zeros(self._violations)]))
+
+    def forget(self) -> None:
+        """Lets the next solve depend on no earlier one."""
+        forget(self._solver)
 
     def solve(self, entries: Array, linear: Array, low: Array, high: Array) -> Any:
         """OSQP's result; its first variables are those of the QP.

@@ -3,6 +3,7 @@
 import signal
 from typing import Any
 
+import numpy as np
 import osqp
 from push_core.geometry import Array
 from scipy import sparse
@@ -26,7 +27,9 @@ def set_up(cost: Array, linear: Array, matrix: sparse.csc_matrix) -> osqp.OSQP:
     """A solver for a diagonal cost (n,), with bounds of zero until they are updated."""
     solver = osqp.OSQP()
     rows = matrix.shape[0]
-    diagonal = sparse.csc_matrix(sparse.diags_array(cost))
+    # keeps zeros as entries, so that weights of zero can be changed
+    index = np.arange(cost.size + 1)
+    diagonal = sparse.csc_matrix((cost, index[:-1], index))
     solver.setup(diagonal, linear, matrix, [0.0] * rows, [0.0] * rows, **OSQP_SETTINGS)
     return solver
 
@@ -38,3 +41,10 @@ def run(solver: osqp.OSQP) -> Any:
         # OSQP's own handler took the Ctrl-C
         signal.raise_signal(signal.SIGINT)
     return result
+
+
+def forget(solver: osqp.OSQP) -> None:
+    """Lets the next solve depend on no earlier one."""
+    rows, size = solver.m, solver.n
+    solver.update_settings(rho=OSQP_SETTINGS['rho'])
+    solver.warm_start(x=np.zeros(size), y=np.zeros(rows))

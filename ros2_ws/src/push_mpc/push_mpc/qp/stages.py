@@ -98,7 +98,7 @@ class Stages:
         entries = np.concatenate([a[:, A_PATTERN], b.reshape(-1, NX * space.size)], axis=-1)
         if not (np.isfinite(entries).all() and np.isfinite(preview.drift).all()):
             raise InputError('the model returned implausibly large displacement rates')
-        low, high = (np.asarray(limit / space.rows_scale) for limit in limits)
+        low, high = _bounds(space, limits)
         scale = np.concatenate([STATE_SCALE, space.scale])[:, None]
         return cls(space, -entries, preview.drift / scale[:NX], preview.target / scale, low, high)
 
@@ -118,6 +118,11 @@ class Stages:
         entries = np.concatenate([a[:, A_PATTERN], effect.reshape(b.shape)], axis=-1)
         return replace(self, entries=entries, drift=drift)
 
+    def within(self, limits: tuple[Array, Array]) -> 'Stages':
+        """The same stages with other limits, see `of`."""
+        low, high = _bounds(self.space, limits)
+        return replace(self, low=low, high=high)
+
     def __len__(self) -> int:
         return len(self.entries)
 
@@ -136,3 +141,9 @@ class Stages:
                 self.high[window] * self.space.rows_scale,
             ),
         )
+
+
+def _bounds(space: InputSpace, limits: tuple[Array, Array]) -> tuple[Array, Array]:
+    """Limits in SI units as bounds in the solver's units."""
+    low, high = limits
+    return low / space.rows_scale, high / space.rows_scale

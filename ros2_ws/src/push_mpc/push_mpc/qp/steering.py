@@ -14,6 +14,7 @@ from push_mpc.motion import TravelModel
 from push_mpc.plan import Placement, Plan
 from push_mpc.qp.stages import Stages
 from push_mpc.qp.tracking_qp import TrackingQP
+from push_mpc.settings import ControllerSettings
 
 
 @dataclass(frozen=True)
@@ -22,10 +23,12 @@ class LinearisedPlan:
 
     Attributes:
         plan: its inputs are those of the QPs: tip velocities, or contact forces and slip.
+        contact: nominal p_y at the end of the stage that begins at each sample (n,) [m].
         stages: linearised stages along the plan, for each QP of the controller.
     """
 
     plan: Plan
+    contact: Array
     stages: tuple[Stages, ...]
 
     def placed(self, placement: Placement) -> 'LinearisedPlan':
@@ -72,6 +75,12 @@ class Steering(Protocol):
 
         Does not touch the solvers, so it may run in another thread.
         """
+
+    def change(self, settings: ControllerSettings) -> None:
+        """Uses other weights and speed limits; see `bounded` for plans that exist."""
+
+    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
+        """A linearised plan with the speed limits in effect."""
 
     def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """Loads the stages (N,) of the next horizon into the solvers, before the poses arrive."""

@@ -13,7 +13,7 @@ takes time. The first input is within 2e-4 m/s of that of an independent solver;
 remove this difference for a third more time.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,29 +23,35 @@ from scipy import sparse
 from push_mpc.qp.problem import Problem
 from push_mpc.qp.relaxed_qp import RelaxedQP
 from push_mpc.qp.solution import Solution
-from push_mpc.qp.solver import run, set_up
+from push_mpc.qp.solver import forget, run, set_up
 from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
+
+
+@dataclass(frozen=True)
+class QPWeights:
+    """Diagonals of the cost.
+
+    Attributes:
+        state: of Q (4,) [1/m^2, 1/m^2, 1/rad^2, 1/m^2]; also of Q_N.
+        input: of R (m,), per squared unit of each input.
+        change: of S (m,), likewise.
+    """
+
+    state: Array
+    input: Array
+    change: Array
 
 
 class TrackingQP:
     """A QP of fixed sparsity and its OSQP solver; only numbers change from tick to tick."""
 
-    def __init__(
-        self,
-        steps: int,
-        space: InputSpace,
-        state_weights: Array,
-        input_weights: Array,
-        change_weights: Array,
-    ) -> None:
+    def __init__(self, steps: int, space: InputSpace, weights: QPWeights) -> None:
         """Sets the solver up.
 
         Args:
             steps: N, length of the horizon.
             space: the inputs u, m of them.
-            state_weights: diagonal of Q (4,) [1/m^2, 1/m^2, 1/rad^2, 1/m^2]; also of Q_N.
-            input_weights: diagonal of R (m,), per squared unit of each input.
-            change_weights: diagonal of S (m,), likewise.
+            weights: of the cost.
         """
         self.steps = steps
         self._space = space
@@ -60,10 +66,7 @@ class TrackingQP:
         self._targets = np.zeros((steps, NX + space.size, 3))
         self._aims = np.zeros((steps, NX + space.size))
         self._inputs = np.zeros((steps, space.size))
-        self._tracking = self._diagonal(state_weights, input_weights)
-        self._change = 2.0 * change_weights * space.scale**2 / self._cost_unit
-        self._cost = self._tracking.copy()
-        self._first_inputs(self._cost)[:] += self._change
+        self._set_cost(weights)
         self._linear = np.zeros(self._size)
         self._disturbance = np.ones(4)
         self._widening = 0.0
@@ -71,6 +74,17 @@ class TrackingQP:
         self._contact_rows = self._limited(np.arange(rows))[:, 0]
         self._relaxed = RelaxedQP(self._cost, self._matrix, self._contact_rows)
         self._variables = np.zeros(self._size)
+
+    def weigh(self, weights: QPWeights) -> None:
+        """Changes the weights, between two ticks; takes as long as `prepare`."""
+        self._set_cost(weights)
+        self._solver.update(Px=self._cost)
+        self._relaxed.weigh(self._cost)
+
+    def forget(self) -> None:
+        """Lets the next solve depend on no earlier one."""
+        forget(self._solver)
+        self._relaxed.forget()
 
     def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
         """Loads everything that does not depend on the state: most of the work of a tick.
@@ -207,6 +221,12 @@ class TrackingQP:
     def _limited(self, bounds: Array) -> Array:
         """The bounds of p_y and of the inputs, as a view (N, 1 + k)."""
         return bounds[self._states :].reshape(self.steps, -1)
+
+    def _set_cost(self, weights: QPWeights) -> None:
+        self._tracking = self._diagonal(weights.state, weights.input)
+        self._change = 2.0 * weights.change * self._space.scale**2 / self._cost_unit
+        self._cost = self._tracking.copy()
+        self._first_inputs(self._cost)[:] += self._change
 
     def _diagonal(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""

@@ -4,6 +4,8 @@ Works with any model of the object's displacement. Source: Bauza, Hogan and Rodr
 section 4.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from push_core.geometry import Array
 from push_core.physics import Slider
@@ -13,7 +15,7 @@ from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.stages import InputSpace, Stages
 from push_mpc.qp.steering import LinearisedPlan, Move
-from push_mpc.qp.tracking_qp import TrackingQP
+from push_mpc.qp.tracking_qp import QPWeights, TrackingQP
 from push_mpc.settings import ControllerSettings
 
 SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2), ('v_n [m/s]', 'v_t [m/s]'))
@@ -26,21 +28,24 @@ class VelocitySteering:
 
     def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
         self._settings, self._slider = settings, slider
-        weights = settings.weights
-        solver = TrackingQP(
-            settings.horizon_steps,
-            SPACE,
-            np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
-            np.array([weights.normal, weights.tangential]),
-            np.full(2, weights.change),
-        )
-        self.solvers = (solver,)
+        self.solvers = (TrackingQP(settings.horizon_steps, SPACE, _weights(settings)),)
 
     def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
         """See `Steering.linearised`."""
         motion = TravelMotion(model, self._slider.tip_x)
         preview = Preview.of(plan, motion, stride)
-        return LinearisedPlan(plan, (Stages.of(SPACE, preview, self._limits(preview)),))
+        stages = Stages.of(SPACE, preview, self._limits(preview.contact, plan.input))
+        return LinearisedPlan(plan, preview.contact, (stages,))
+
+    def change(self, settings: ControllerSettings) -> None:
+        """See `Steering.change`."""
+        self._settings = settings
+        self.solvers[0].weigh(_weights(settings))
+
+    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
+        """See `Steering.bounded`."""
+        limits = self._limits(linearised.contact, linearised.plan.input)
+        return replace(linearised, stages=(linearised.stages[0].within(limits),))
 
     def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
         """See `Steering.prepare`."""
@@ -69,10 +74,19 @@ class VelocitySteering:
             solution.states,
         )
 
-    def _limits(self, preview: Preview) -> tuple[Array, Array]:
+    def _limits(self, contact: Array, inputs: Array) -> tuple[Array, Array]:
         """Lowest and highest deviations (n, 3) of [p_y, v_n, v_t] from the nominal."""
-        nominal = np.column_stack([preview.contact, preview.input])
+        nominal = np.column_stack([contact, inputs])
         half, tangential = 0.5 * self._slider.side, self._settings.tangential_speed_limit
         low = np.array([-half, 0.0, -tangential])
         high = np.array([half, self._settings.normal_speed_limit, tangential])
         return low - nominal, high - nominal
+
+
+def _weights(settings: ControllerSettings) -> QPWeights:
+    weights = settings.weights
+    return QPWeights(
+        np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
+        np.array([weights.normal, weights.tangential]),
+        np.full(2, weights.change),
+    )

@@ -2,13 +2,12 @@
 
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
-from push_mpc.settings.node_settings import CHANGEABLE, MpcSettings, mpc_settings
+from push_mpc.settings.node_settings import MpcSettings, is_changeable, mpc_settings
 from push_mpc.settings.pose_gate_settings import PoseGateSettings
 from push_mpc.settings.presets import PRESETS
 from push_mpc.settings.recontact import approach, departure, is_apart
 
 __all__ = [
-    'CHANGEABLE',
     'CONTROLLERS',
     'PRESETS',
     'ControllerSettings',
@@ -17,5 +16,6 @@ __all__ = [
     'approach',
     'departure',
     'is_apart',
+    'is_changeable',
     'mpc_settings',
 ]

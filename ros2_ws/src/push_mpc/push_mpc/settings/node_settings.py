@@ -61,11 +61,16 @@ class MpcSettings(ControllerSettings):
         validate(self)
 
 
-CHANGEABLE = (
-    *('recontact.gap', 'recontact.speed', 'disturbance_length'),
-    *('pose_timeout', 'pose_loss', 'require_recorder'),
+_CHANGEABLE = (
+    *('weights.', 'force_weights.', 'normal_speed_limit', 'tangential_speed_limit'),
+    *('limits.speed', 'limits.acceleration', 'limits.deceleration'),
+    *('recontact.', 'disturbance_length', 'pose_timeout', 'pose_loss', 'require_recorder'),
 )
-"""Parameters that may change during a run: neither plan nor solver is made of them."""
+
+
+def is_changeable(name: str) -> bool:
+    """Whether a parameter may change during a run: plan, table and solver are made of others."""
+    return name.startswith(_CHANGEABLE)
 
 
 def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:

@@ -55,11 +55,15 @@ class NodeSettings(SimSettings):
     slider: Slider = nested(Slider(), _WORLDS_OWN)
 
 
+_CHANGEABLE = (
+    *('sensor.', 'perturbation.', 'command_', 'start_offset.'),
+    *('world.friction_ground', 'world.friction_pusher'),
+)
+
+
 def is_changeable(name: str) -> bool:
-    """Whether a parameter can change while the plant runs, which has its latency built in."""
-    if name == 'sensor.latency':
-        return False
-    return name.startswith(('sensor.', 'perturbation.', 'command_'))
+    """Whether a parameter may change while the plant runs, which has its latency built in."""
+    return name != 'sensor.latency' and name.startswith(_CHANGEABLE)
 
 
 def node_settings(profile_name: str) -> NodeSettings:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 from geometry_msgs.msg import TwistStamped
-from push_core.common import InputError, PushError, flatten
+from push_core.common import InputError, PushError
 from push_msgs.msg import NominalTrajectory
 from push_msgs.srv import Perturb, Reset
 from push_node import interface
@@ -48,8 +48,7 @@ class SimNode(Node):  # type: ignore[misc]
     def __init__(self) -> None:
         super().__init__('sim_node', automatically_declare_parameters_from_overrides=True)
         defaults = node_settings(override(self, 'profile', 'irb120'))
-        changeable = [name for name in flatten(defaults) if is_changeable(name)]
-        self._settings: NodeSettings = declared(self, defaults, changeable)
+        self._settings: NodeSettings = declared(self, defaults, is_changeable)
         self._slider = self._settings.slider
         self._plant = Plant(self._settings, self._slider)
         self._plan: NominalTrajectory | None = None

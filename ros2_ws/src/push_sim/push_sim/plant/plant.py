@@ -17,7 +17,7 @@ from push_sim.plant.perturbation import (
     apply_perturbation,
 )
 from push_sim.plant.sensor import Observation, Sensor
-from push_sim.settings import PERIOD, SimSettings, StartOffset
+from push_sim.settings import PERIOD, SimSettings, StartOffset, WorldSettings
 from push_sim.worlds import make_world
 from push_sim.worlds.common import Outline
 
@@ -100,22 +100,21 @@ class Plant:
         self._driver.command(velocity, arrival)
 
     def change(self, settings: SimSettings) -> None:
-        """Uses other settings of sensor, perturbation and command losses from now on.
+        """Uses other friction, sensor, perturbation, losses and start offset from now on.
 
         Raises:
             InputError: another setting differs, for which a new plant has to be made.
         """
         old, slider = self._settings
-        kept = replace(
-            settings,
-            sensor=old.sensor,
-            perturbation=old.perturbation,
-            command_timeout=old.command_timeout,
-            command_loss=old.command_loss,
-        )
-        if kept != old or settings.sensor.latency != old.sensor.latency:
-            raise InputError('only sensor, perturbation and command losses of a plant can change')
+        world = _with_friction_of(old.world, settings.world)
+        unchanged = world, settings.actuator, settings.sensor.latency
+        if unchanged != (old.world, old.actuator, old.sensor.latency):
+            raise InputError('actuator, latency, and of the world all but friction cannot change')
         self._settings = settings, slider
+        if settings.world != old.world:
+            self._world.set_friction(
+                settings.world.friction_ground, settings.world.friction_pusher
+            )
         self._sensor.change(settings.sensor)
         self._driver.change(settings.command_timeout, settings.command_loss)
         if settings.perturbation != old.perturbation:
@@ -246,6 +245,11 @@ class Plant:
         due = self._schedule.due(self.time)
         if due is not None:
             self.perturb(due)
+
+
+def _with_friction_of(other: WorldSettings, settings: WorldSettings) -> WorldSettings:
+    ground, pusher = other.friction_ground, other.friction_pusher
+    return replace(settings, friction_ground=ground, friction_pusher=pusher)
 
 
 def _check_overlap(slider: Slider, object_pose: Array, tip_position: Array) -> None:

@@ -89,3 +89,8 @@ def make_body(client: int, mass: float, shape: int, friction: float) -> int:
         physicsClientId=client,
     )
     return body
+
+
+def set_friction(client: int, body: int, friction: float) -> None:
+    """Changes the friction coefficient of a body."""
+    pybullet.changeDynamics(body, -1, lateralFriction=friction, physicsClientId=client)

@@ -7,6 +7,7 @@ the rotation by the same push would depend on the heading by a few per cent.
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from push_core.common import InputError
@@ -96,6 +97,13 @@ class BulletWorld:
         self._impulse = (x, y)
         stopping_time = math.hypot(x, y) / (self._slider.mass * self._settings.friction_ground)
         self._sliding_steps = math.ceil(2.0 * stopping_time / (GRAVITY * self._settings.substep))
+
+    def set_friction(self, friction_ground: float, friction_pusher: float) -> None:
+        """See `World.set_friction`."""
+        self._settings = replace(
+            self._settings, friction_ground=friction_ground, friction_pusher=friction_pusher
+        )
+        self._scene.set_friction(self._settings)
 
     def snapshot(self) -> BulletSnapshot:
         """See `World.snapshot`."""

@@ -4,7 +4,13 @@ from push_core.geometry import quaternion_to_yaw, yaw_to_quaternion
 from push_core.physics import GRAVITY, Pair, Slider
 
 from push_sim.settings import WorldSettings
-from push_sim.worlds.bullet.bodies import HALF_HEIGHT, make_object, make_tip, resting_height
+from push_sim.worlds.bullet.bodies import (
+    HALF_HEIGHT,
+    make_object,
+    make_tip,
+    resting_height,
+    set_friction,
+)
 from push_sim.worlds.bullet.impact import fraction_until_contact
 from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.bullet.snapshot import restore_server_state, server_state
@@ -42,6 +48,15 @@ class BulletScene:
             pybullet.resetSimulation(physicsClientId=self._client)
             self._make()
         elif self._settings.uneven:
+            self._uneven = self._uneven_table()
+
+    def set_friction(self, settings: WorldSettings) -> None:
+        """Uses settings that differ only in the coefficients of friction."""
+        self._settings = settings
+        set_friction(self._client, self._tip, settings.friction_pusher)
+        for table in self._tables:
+            set_friction(self._client, table, settings.friction_ground)
+        if settings.uneven:
             self._uneven = self._uneven_table()
 
     def state(self) -> bytes:

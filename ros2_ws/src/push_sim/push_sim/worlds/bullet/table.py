@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from push_core.physics import Pair
 
 from push_sim.settings import WorldSettings
-from push_sim.worlds.bullet.bodies import make_body
+from push_sim.worlds.bullet.bodies import make_body, set_friction
 from push_sim.worlds.bullet.silent_pybullet import pybullet
 from push_sim.worlds.common import QUADRANTS, Axes, TableFriction
 
@@ -73,6 +73,4 @@ class UnevenTable:
             slip = (velocity[0] - turn_rate * y, velocity[1] + turn_rate * x)
             position = axes.point_to_world((slider.x + x, slider.y + y))
             coefficient = self._friction.coefficient(position, axes.vector_to_world(slip))
-            pybullet.changeDynamics(
-                box, -1, lateralFriction=coefficient, physicsClientId=self._client
-            )
+            set_friction(self._client, box, coefficient)

@@ -34,6 +34,9 @@ class World(Protocol):
     def push_object(self, impulse: Array) -> None:
         """Gives the object an impulse (2,) [N s] at its centre in the next time step."""
 
+    def set_friction(self, friction_ground: float, friction_pusher: float) -> None:
+        """Uses other coefficients of friction, see `WorldSettings`, from the next time step on."""
+
     def snapshot(self) -> object:
         """The complete state, for `restore`; taking it has no effect on the world."""
 

@@ -7,7 +7,7 @@ than a picometre; a square that is placed on the tip is moved to contact.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from push_core.common import InputError
@@ -95,6 +95,14 @@ class QuasiStaticWorld:
         """See `World.follow`."""
         for velocity in tip_velocities:
             self.advance(velocity, 1)
+
+    def set_friction(self, friction_ground: float, friction_pusher: float) -> None:
+        """See `World.set_friction`."""
+        self._settings = replace(
+            self._settings, friction_ground=friction_ground, friction_pusher=friction_pusher
+        )
+        self._deceleration = friction_ground * GRAVITY
+        self._rolling = replace(self._rolling, friction=friction_pusher)
 
     def snapshot(self) -> QuasiStaticSnapshot:
         """See `World.snapshot`."""
