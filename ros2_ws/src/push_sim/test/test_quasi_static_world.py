@@ -1,6 +1,8 @@
 """The quasi-static world beside closed forms and an independent integrator."""
 
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -108,3 +110,20 @@ def test_it_overlaps_by_less_than_a_picometre_whatever_the_tip_does(slider: Slid
         for _ in range(60):
             world.advance(random.normal(0.0, 0.15, 2) - [0.0, 0.1], 10)
             assert world.penetration < 2e-12
+
+
+def test_the_plant_runs_on_it_where_pybullet_is_not_installed() -> None:
+    program = """
+import sys
+sys.modules['pybullet'] = None
+import numpy as np
+from push_core.physics import Slider
+from push_sim.plant import Plant
+from push_sim.settings import SimSettings, WorldSettings
+
+plant = Plant(SimSettings(world=WorldSettings(engine='quasi_static')), Slider())
+plant.reset(np.zeros(3), Slider().tip_position(np.zeros(3), 0.0), seed=0)
+plant.command(np.array([0.05, 0.0]), plant.time)
+assert plant.step_until_seen().object_pose.shape == (3,)
+"""
+    subprocess.run([sys.executable, '-c', program], check=True)

@@ -3,20 +3,20 @@
 Its name also goes to `ENGINE_NAMES` of the settings; a test compares the two.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
+from pkgutil import resolve_name
 
 from push_core.physics import Slider
 
 from push_sim.settings import WorldSettings
-from push_sim.worlds.bullet import BulletWorld
 from push_sim.worlds.common import World
-from push_sim.worlds.quasi_static import QuasiStaticWorld
 
-ENGINES: Mapping[str, Callable[[WorldSettings, Slider], World]] = {
-    'bullet': BulletWorld,
-    'quasi_static': QuasiStaticWorld,
+ENGINES: Mapping[str, str] = {
+    'bullet': 'push_sim.worlds.bullet:BulletWorld',
+    'quasi_static': 'push_sim.worlds.quasi_static:QuasiStaticWorld',
 }
+"""The class of each engine, imported when it is used: none needs the library of another."""
 
 COARSE_SUBSTEP = 0.005
 """Time step [s] of a coarse world."""
@@ -34,7 +34,8 @@ def make_world(settings: WorldSettings, slider: Slider) -> World:
         side=slider.side * (1.0 + settings.size_error),
         mass=slider.mass * (1.0 + settings.mass_error),
     )
-    return ENGINES[settings.engine](settings, actual)
+    world: World = resolve_name(ENGINES[settings.engine])(settings, actual)
+    return world
 
 
 def make_coarse_world(settings: WorldSettings, slider: Slider) -> World:
