@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 from cell_command import CELL, PATIENT, Ended, is_pushing, wait_until
-
-# a domain of our own, so that no cell of the machine's user is in the way
-DOMAIN = str(40 + os.getpid() % 40)
+from node_tests import own_domain
 
 
 @pytest.fixture(scope='session', autouse=True)
@@ -23,7 +21,15 @@ def _interrupts_heard() -> None:
 def environment(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """Variables for all commands; one cache, so that the default model is learned once."""
     cache = tmp_path_factory.mktemp('cache')
-    return {**os.environ, 'ROS_DOMAIN_ID': DOMAIN, 'XDG_CACHE_HOME': str(cache)}
+    return {**os.environ, 'ROS_DOMAIN_ID': own_domain(), 'XDG_CACHE_HOME': str(cache)}
+
+
+@pytest.fixture(scope='session')
+def measured() -> Path | None:
+    """Folder of the measured data, where there is one."""
+    beside_the_project = Path(__file__).parents[2] / 'shared' / 'data'
+    folder = Path(os.environ.get('PUSH_DATA_DIR', beside_the_project))
+    return folder.absolute() if folder.is_dir() else None
 
 
 @pytest.fixture

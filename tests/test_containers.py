@@ -12,6 +12,7 @@ from string import Template
 import pytest
 import yaml
 from cell_command import HANG
+from node_tests import own_domain
 
 ROOT = Path(__file__).parents[1]
 SERVICES = yaml.safe_load((ROOT / 'docker/compose.yaml').read_text())['services']
@@ -29,7 +30,8 @@ def defaults() -> dict[str, str]:
 
 @pytest.fixture
 def environment(environment: dict[str, str], tmp_path: Path) -> dict[str, str]:
-    return {**environment, **defaults(), **CHOICES, 'RUNS': str(tmp_path), 'ROS_DOMAIN_ID': '39'}
+    own = {'RUNS': str(tmp_path), 'ROS_DOMAIN_ID': own_domain()}
+    return {**environment, **defaults(), **CHOICES, **own}
 
 
 @pytest.fixture

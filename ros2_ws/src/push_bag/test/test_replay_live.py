@@ -1,11 +1,11 @@
 """A replay beside running nodes: it moves no plant and is no second source."""
 
-import itertools
 from collections.abc import Callable, Iterator
 
 import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from node_tests import own_domain
 from push_bag.commands.replay import main
 from push_node import qos
 from rclpy.context import Context
@@ -13,14 +13,13 @@ from rclpy.node import Node
 
 pytestmark = pytest.mark.processes
 
-DOMAINS = itertools.cycle(range(1, 101))
 COMMANDS = 'pusher_velocity_cmd'
 
 
 @pytest.fixture
 def neighbour(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[str], Node]]:
     """Makes nodes in a context of their own, as another process does, in a domain of their own."""
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(next(DOMAINS)))
+    monkeypatch.setenv('ROS_DOMAIN_ID', own_domain())
     context, nodes = Context(), []
     rclpy.init(context=context)
 

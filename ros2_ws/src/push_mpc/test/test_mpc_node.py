@@ -1,6 +1,5 @@
 """The node as a process of its own, over real DDS; this process is plant, recorder and model."""
 
-import itertools
 import signal
 import subprocess
 import sys
@@ -12,6 +11,7 @@ import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped, TwistStamped
+from node_tests import own_domain
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_mpc.settings.node_settings import mpc_settings
@@ -31,7 +31,6 @@ pytestmark = pytest.mark.processes
 
 PATIENCE = 60.0  # [s]; nothing but a hang takes that long
 LINE = 'track:=line'
-DOMAINS = itertools.cycle(range(1, 101))
 
 
 class Cell:
@@ -149,7 +148,7 @@ class Cell:
 @pytest.fixture
 def make_cell(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Cell]]:
     """Makes cells that no other test sees: an executor keeps its node in the graph."""
-    monkeypatch.setenv('ROS_DOMAIN_ID', str(next(DOMAINS)))
+    monkeypatch.setenv('ROS_DOMAIN_ID', own_domain())
     rclpy.init()
     yield Cell
     rclpy.try_shutdown()
