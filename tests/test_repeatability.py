@@ -1,36 +1,20 @@
 """The same seed gives the same trajectory, whatever the mode and however busy the machine."""
 
-import json
 import os
 import signal
 import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from busy_lockstep import busy_cores, missing_messages
 from cell_command import CELL, HANG, Ended, is_pushing, wait_until
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_run
 from push_msgs.msg import ControllerState
 
 LAP = ('--track', 'line', '--speed', '0.15', '--perturb', 'tangential', '--profile', 'harsh')
-
-
-@contextmanager
-def busy_cores() -> Iterator[None]:
-    burners = [
-        subprocess.Popen([sys.executable, '-c', 'while True: pass'])
-        for _ in range(2 * (os.cpu_count() or 1))
-    ]
-    try:
-        yield
-    finally:
-        for burner in burners:
-            burner.kill()
-            burner.wait()
 
 
 def recorder_of(pid: int) -> int | None:
@@ -41,12 +25,6 @@ def recorder_of(pid: int) -> int | None:
         if (found := recorder_of(int(child))) is not None:
             return found
     return None
-
-
-def missing_messages(folder: Path) -> dict[str, int]:
-    """Messages that the bag lacks, by topic, for topics that lack any."""
-    counts = json.loads((folder / 'score.json').read_text())['messages']
-    return {topic: seen['lost'] for topic, seen in counts.items() if seen['lost']}
 
 
 def trajectory(folder: Path) -> np.ndarray:
