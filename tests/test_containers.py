@@ -84,3 +84,26 @@ def test_every_variable_has_a_default() -> None:
     known = {**defaults(), **os.environ}
     text = (ROOT / 'docker/compose.yaml').read_text()
     Template(text).substitute(known)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'words'),
+    [
+        ([], '--profile demo up --build --exit-code-from lap'),
+        (['live'], '--profile live up --build'),
+    ],
+)
+def test_the_folder_of_the_runs_is_there_before_the_containers(
+    tmp_path: Path, arguments: list[str], words: str
+) -> None:
+    docker = tmp_path / 'docker'
+    docker.write_text('#!/bin/sh\n[ -d "$RUNS" ] && [ "$CELL_UID" != 0 ] && echo "$@"\n')
+    docker.chmod(0o755)
+    told = subprocess.run(
+        [ROOT / 'docker/demo.sh', *arguments],
+        env={'PATH': f'{tmp_path}:{os.environ["PATH"]}', 'RUNS': str(tmp_path / 'runs')},
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    assert told.stdout == f'compose --file {ROOT}/docker/compose.yaml {words}\n'

@@ -1,0 +1,42 @@
+#!/bin/bash
+# Builds and tests the workspace by plain colcon with the versions of Ubuntu 24.04, where ROS 2 Jazzy
+# is at home: Python 3.12, numpy 1.26, setuptools 68. ROS itself comes from wheels.
+#
+#   tests/tools/native_colcon.sh                                   all tests
+#   tests/tools/native_colcon.sh --packages-select push_node       arguments for `colcon test`
+#
+# PYTHON names the interpreter (default python3.12). What is committed is tested, in a clone below
+# .cache. The status is 1 where a test fails; colcon's own output is in ros2_ws/log of the clone.
+set -euo pipefail
+
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
+clone=$here/.cache/native
+export PUSH_DATA_DIR=${PUSH_DATA_DIR:-$here/../shared/data}
+
+main() {
+  [ -e "$clone" ] || git clone --quiet --shared --no-checkout "$here" "$clone"
+  git -C "$clone" checkout --quiet --force --detach "$(git -C "$here" rev-parse HEAD)"
+  make -C "$clone" setup PYTHON="${PYTHON:-python3.12}"
+  use_versions_of_ubuntu
+  "$clone/scripts/in_env" bash -euc "$(declare -f build_and_test); build_and_test \"\$@\"" colcon "$@"
+}
+
+use_versions_of_ubuntu() {
+  "$clone/.venv/bin/python" -m pip install --quiet numpy==1.26.4 setuptools==68.1.2
+  # the CMake files of the wheels name numpy's headers, which lay elsewhere before numpy 2
+  find "$clone/.venv/share" -name '*Export.cmake' -exec sed -i 's|numpy/_core/include|numpy/core/include|g' {} +
+}
+
+build_and_test() {
+  cd "$VIRTUAL_ENV/../ros2_ws"
+  rm -rf build install log
+  colcon build --symlink-install --cmake-args "-DPython3_EXECUTABLE=$VIRTUAL_ENV/bin/python"
+  set +u
+  # shellcheck source=/dev/null
+  . install/local_setup.bash
+  set -u
+  colcon test "$@" || true
+  colcon test-result --verbose
+}
+
+main "$@"
