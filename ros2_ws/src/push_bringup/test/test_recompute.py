@@ -16,7 +16,7 @@ from push_core.common.errors import InputError
 from push_gp.models.model_file import load_model, model_named
 from push_gp.server.conversions import added_pushes_message
 from push_gp.server.model_server import ModelServer
-from push_mpc.loop.controller import Mode, Tick
+from push_mpc.loop.controller import Mode
 from push_mpc.plan.planning import planned
 from push_node.stamps import to_seconds, to_stamp
 from rclpy.serialization import serialize_message
@@ -59,11 +59,8 @@ def _push(cell, record):
         events.get(number, lambda: None)()
         seen, now = (nanoseconds(time) - origin for time in (observation.time, plant.time))
         poses = observation.object_pose, observation.tip_position
-        if number == 40:
+        if number in {40, 80}:
             tick = controller.hold(to_seconds(now))
-            record.controller_tick(tick, origin + now + 1, 0.0)
-        elif number == 80:
-            tick = Tick(Mode.STOPPED, np.zeros(2))
             record.controller_tick(tick, origin + now + 1, 0.0)
         else:
             tick = controller.step(*poses, to_seconds(seen), to_seconds(now))

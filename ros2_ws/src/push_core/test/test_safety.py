@@ -7,12 +7,14 @@ from hypothesis import strategies as st
 from push_core.physics.actuator import ACTUATORS, Actuator
 from push_core.physics.safety import (
     ACCELERATION,
+    DEAD_BAND,
     LIMIT_NAMES,
     NOT_FINITE,
     SPEED,
     WORKSPACE,
     SafetyLimits,
     limit,
+    slowed,
 )
 
 PERIOD = 0.01
@@ -27,8 +29,6 @@ LIMITS = SafetyLimits(
     workspace_y=0.4,
 )
 BLIND = LIMITS.speed * LIMITS.reaction_time
-ANY = st.floats(allow_nan=True, allow_infinity=True)
-PAIRS = st.tuples(ANY, ANY).map(np.array)
 
 
 def limited(velocity, previous=STILL, position=CENTRE):
@@ -119,20 +119,78 @@ def test_the_speed_limit_comes_after_the_acceleration_limit() -> None:
 
 
 def test_every_bit_has_a_name_and_no_other() -> None:
-    assert sorted(LIMIT_NAMES) == [NOT_FINITE, SPEED, ACCELERATION, WORKSPACE]
-    assert sum(LIMIT_NAMES) == NOT_FINITE | SPEED | ACCELERATION | WORKSPACE
+    bits = [NOT_FINITE, SPEED, ACCELERATION, WORKSPACE, DEAD_BAND]
+    assert sorted(LIMIT_NAMES) == bits
+    assert [bit & (bit - 1) for bit in bits] == [0] * len(bits)
 
 
-@given(PAIRS, PAIRS, PAIRS)
+@pytest.mark.parametrize('tiny', [5e-324, 1e-300, 0.9e-5])
+def test_what_is_slower_than_the_dead_band_is_sent_as_zero(tiny) -> None:
+    velocity, bits = limited([tiny, 0.0])
+    assert (velocity.tolist(), bits) == ([0.0, 0.0], DEAD_BAND)
+    assert limited([0.0, 0.0]) == (pytest.approx([0.0, 0.0]), 0)
+
+
+@pytest.mark.parametrize('huge', [1e308, -1e308, 1.7976931348623157e308])
+def test_numbers_whose_difference_overflows_stop(huge) -> None:
+    velocity, bits = limited([huge, 0.0], previous=[-huge, 0.0])
+    assert (velocity.tolist(), bits) == ([0.0, 0.0], NOT_FINITE)
+
+
+# numbers of every kind, and near every threshold
+ODD = st.sampled_from(
+    [0.0, -0.0, 5e-324, -5e-324, 1e-300, 1e-5, 1e308, -1e308, math.nan, math.inf, -math.inf]
+)
+NUMBERS = st.one_of(st.floats(-0.3, 0.3), st.floats(-0.7, 0.7), st.floats(), ODD)
+VECTORS = st.tuples(NUMBERS, NUMBERS).map(np.array)
+
+
+@given(VECTORS, VECTORS, VECTORS)
 @example(np.zeros(2), np.array([1.0, 0.0]), np.array([1.0, 0.0]))
-def test_whatever_is_asked_the_command_is_finite_and_within_the_speed_limit(
+def test_whatever_is_asked_the_command_keeps_every_limit_and_says_which(
     velocity, previous, position
 ) -> None:
+    given_bytes = velocity.tobytes(), previous.tobytes(), position.tobytes()
     command, bits = limit(velocity, previous, position, LIMITS, PERIOD)
+    assert (velocity.tobytes(), previous.tobytes(), position.tobytes()) == given_bytes
     assert np.isfinite(command).all()
-    assert math.hypot(*command) <= LIMITS.speed * (1.0 + 1e-12)
+    speed = math.hypot(*command)
+    assert speed <= LIMITS.speed * (1.0 + 1e-12)
+    assert speed == 0.0 or speed >= LIMITS.dead_band
+    if bits & NOT_FINITE:
+        assert not command.any()
+        return
+    edges = np.array([LIMITS.workspace_x, LIMITS.workspace_y])
+    room = np.maximum(edges - BLIND - np.sign(command) * position, 0.0)
+    assert np.all(np.abs(command) <= np.sqrt(2.0 * LIMITS.deceleration * room) * (1.0 + 1e-12))
+    if not bits & (WORKSPACE | DEAD_BAND) and math.hypot(*previous) <= LIMITS.speed:
+        step = LIMITS.acceleration * PERIOD
+        assert math.hypot(*(command - previous)) <= step * (1.0 + 1e-9) + 1e-15
     # one limit may undo another, so that bits do not mean that the command differs
     assert bits or np.array_equal(command, velocity)
+
+
+@given(st.floats(0.01, 1e5), st.floats(-math.pi, math.pi))
+def test_the_speed_limit_keeps_the_direction(speed, angle) -> None:
+    asked = speed * np.array([math.cos(angle), math.sin(angle)])
+    command, _ = limit(asked, asked, CENTRE, LIMITS, PERIOD)
+    assert math.hypot(*command) == pytest.approx(min(speed, LIMITS.speed))
+    across = command[0] * asked[1] - command[1] * asked[0]
+    assert abs(across) <= 1e-12 * speed
+    assert command @ asked > 0.0
+
+
+@given(VECTORS)
+def test_slowing_down_ends_at_zero_along_a_line_with_the_stated_deceleration(previous) -> None:
+    velocity, bits = slowed(previous, LIMITS, PERIOD)
+    assert np.isfinite(velocity).all()
+    if bits & NOT_FINITE:
+        assert not velocity.any()
+        return
+    before, step = math.hypot(*previous), LIMITS.acceleration * PERIOD
+    after = math.hypot(*velocity)
+    assert after == pytest.approx(max(before - step, 0.0), abs=1e-9 * max(before, 1.0))
+    assert velocity.any() == (before > step)
 
 
 SPEEDS = st.floats(-0.3, 0.3)

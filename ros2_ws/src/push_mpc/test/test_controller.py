@@ -16,11 +16,24 @@ from push_mpc.qp.steering import Move
 from push_mpc.settings.node_settings import mpc_settings
 
 SETTINGS = mpc_settings('irb120')
-MODES = {Mode.TRACKING, Mode.RECONTACT, Mode.DONE, Mode.STOPPED}
+MODES = {Mode.TRACKING, Mode.RECONTACT, Mode.DONE, Mode.STOPPING, Mode.STOPPED, Mode.FAULT}
+ENDS = {Mode.STOPPING, Mode.STOPPED, Mode.FAULT}
 
 
 def is_still(tick) -> bool:
     return not np.any(tick.velocity)
+
+
+def assert_slows_down(cell, tick, last, end) -> None:
+    """From the command `last` this tick and the next ones ramp down to zero, then it ends."""
+    step = SETTINGS.limits.acceleration * SETTINGS.period
+    for left in np.arange(np.hypot(*last) - step, 0.0, -step):
+        assert (tick.mode, tick.velocity) == (
+            Mode.STOPPING,
+            pytest.approx(left * last / np.hypot(*last)),
+        )
+        tick = cell.tick()
+    assert (tick.mode, is_still(tick)) == (end, True)
 
 
 def test_nothing_moves_before_enough_good_poses(cell) -> None:
@@ -74,8 +87,8 @@ def test_the_prediction_comes_true(tracking) -> None:
 def test_a_bad_pose_stops_at_once_and_for_good(tracking, bad, entry) -> None:
     pose = tracking.seen.object_pose.copy()
     pose[entry] = bad
-    stopped = tracking.tick(pose)
-    assert (stopped.mode, is_still(stopped)) == (Mode.STOPPED, True)
+    last = tracking.tick().velocity
+    assert_slows_down(tracking, tracking.tick(pose), last, Mode.STOPPED)
     assert 'pose' in tracking.controller.stop_reason
     after = [tracking.tick() for _ in range(40)]
     assert all(tick.mode == Mode.STOPPED and is_still(tick) for tick in after)
@@ -84,6 +97,10 @@ def test_a_bad_pose_stops_at_once_and_for_good(tracking, bad, entry) -> None:
 
 def test_a_stop_is_released_by_resume_and_begins_anew(tracking) -> None:
     tracking.controller.stop('on request')
+    tracking.controller.resume()
+    assert tracking.controller.mode == Mode.STOPPING
+    while tracking.tick().mode == Mode.STOPPING:
+        pass
     tracking.controller.resume()
     assert (tracking.controller.mode, tracking.controller.stop_reason) == (Mode.IDLE, '')
     assert is_still(tracking.tick())
@@ -96,11 +113,10 @@ def test_resume_does_nothing_to_a_controller_that_is_not_stopped(tracking) -> No
     assert tracking.controller.mode == Mode.TRACKING
 
 
-def test_at_the_end_of_the_plan_it_is_done_and_still(tracking) -> None:
-    controller = tracking.controller
-    late = controller.plan.duration + 10.0
-    tick = controller.step(tracking.seen.object_pose, tracking.seen.tip_position, late, late)
-    assert (tick.mode, is_still(tick)) == (Mode.DONE, True)
+def test_at_the_end_of_the_plan_it_slows_down_and_is_done(tracking) -> None:
+    controller, last = tracking.controller, tracking.tick().velocity
+    controller._start -= controller.plan.duration
+    assert_slows_down(tracking, tracking.tick(), last, Mode.DONE)
 
 
 def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
@@ -111,9 +127,9 @@ def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
         fault='v_n [m/s] in step 1 of 20 is violated by 0.1',
         states=np.empty((36, 4)),
     )
+    last = tracking.tick().velocity
     monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
-    tick = tracking.tick()
-    assert (tick.mode, is_still(tick)) == (Mode.STOPPED, True)
+    assert_slows_down(tracking, tracking.tick(), last, Mode.STOPPED)
     assert tracking.controller.stop_reason == (
         'the solver found no usable input (status 3): v_n [m/s] in step 1 of 20 is violated by 0.1'
     )
@@ -143,9 +159,12 @@ def test_without_compensation_it_plans_from_what_it_sees(tracking, table) -> Non
 
 def test_holding_for_want_of_a_pose_is_still_and_foreseen(tracking) -> None:
     now = tracking.plant.time - tracking.plant.START
+    last = tracking.tick().velocity
     held = [tracking.controller.hold(now + 0.01 * count) for count in range(15)]
     assert {tick.mode for tick in held} == {Mode.HOLDING}
-    assert all(is_still(tick) for tick in held)
+    step = SETTINGS.limits.acceleration * SETTINGS.period
+    assert held[0].velocity == pytest.approx(last * (1.0 - step / np.hypot(*last)))
+    assert all(is_still(tick) for tick in held[1:])
     later = now + 0.15
     seen = tracking.seen
     tick = tracking.controller.step(seen.object_pose, seen.tip_position, later, later + 0.005)
@@ -202,9 +221,9 @@ def test_whatever_is_seen_a_tick_ends_in_a_finite_command_or_a_stated_stop(
         assert tick.mode in MODES
         assert np.isfinite(tick.velocity).all()
         assert np.hypot(*tick.velocity) <= SETTINGS.limits.speed * (1 + 1e-12)
-        if tick.mode == Mode.STOPPED:
+        assert bool(controller.stop_reason) == (tick.mode in ENDS)
+        if tick.mode in (Mode.STOPPED, Mode.FAULT):
             assert is_still(tick)
-            assert controller.stop_reason
 
 
 @pytest.mark.parametrize('controller', ['gp', 'analytical'])

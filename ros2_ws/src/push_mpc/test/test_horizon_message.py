@@ -57,4 +57,4 @@ def test_a_tick_that_does_not_follow_plans_nothing(tracking) -> None:
         tracking.tick()
     tracking.controller.stop('on request')
     stopped = tracking.tick()
-    assert (stopped.mode, stopped.planned) == (Mode.STOPPED, None)
+    assert (stopped.mode, stopped.planned) == (Mode.STOPPING, None)

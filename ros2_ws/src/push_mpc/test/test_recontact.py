@@ -43,8 +43,11 @@ def test_a_pusher_that_left_the_face_for_good_stops_and_says_so(
 ) -> None:
     pose = np.zeros(3)
     tip = np.array([along, aside])
-    now = tracking.plant.time - tracking.plant.START
-    tick = tracking.controller.step(pose, tip, now - 0.005, now)
+    now, before = tracking.plant.time - tracking.plant.START, np.inf
+    for later in np.arange(now, now + 0.05, 0.01):
+        tick = tracking.controller.step(pose, tip, later - 0.005, later)
+        assert np.hypot(*tick.velocity) < before
+        before = np.hypot(*tick.velocity) or np.inf
     assert (tick.mode, np.any(tick.velocity)) == (Mode.STOPPED, False)
     assert reason in tracking.controller.stop_reason
 

@@ -71,20 +71,25 @@ class NodeClient:
             RunError: no controller answers, or it refuses to start.
         """
         self.stop()
-        self._call(interface.RESUME)
         deadline = time.monotonic() + READY_TIMEOUT
+        # the node comes to rest first
+        while not self._call(interface.RESUME).success and time.monotonic() < deadline:
+            self._wait_until(lambda: False, PATIENCE)
         while not (answer := self._try_to_start(first)).success:
             if time.monotonic() > deadline:
                 raise RunError(f'mpc_node does not start: {answer.message}')
         self._commands.clear()
 
-    def stop(self) -> None:
-        """Stops the controller.
+    def stop(self) -> Floats:
+        """Stops the controller; returns the command (2,) [m/s] that it sends at once.
 
         Raises:
             RunError: no controller answers.
         """
+        self._commands.clear()
         self._call(interface.STOP)
+        self._wait_until(lambda: bool(self._commands), PATIENCE)
+        return next(iter(self._commands.values()), np.zeros(2))
 
     def command(self, inputs: TickInput) -> Floats:
         """The controller's command (2,) for these inputs [m/s].

@@ -89,9 +89,8 @@ class NodeComparison:
         """The node's command at a tick; None if the bag lacks its poses."""
         inputs = self._inputs(tick)
         before, self._mode = self._mode, tick.mode
-        if tick.mode == ControllerState.STOPPED and inputs is None:
-            self._client.stop()
-            return np.zeros(2)
+        if tick.stop_reason and inputs is None:
+            return self._client.stop()
         if tick.mode == ControllerState.IDLE or inputs is None:
             return None
         if tick.mode == ControllerState.ARMED and before != ControllerState.ARMED:

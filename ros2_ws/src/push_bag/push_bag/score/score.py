@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from push_core.common import InputError, finite
+from push_core.physics import LIMIT_NAMES
 from push_core.tracks import is_completed
 from push_msgs.msg import ControllerState
 from push_node import interface
@@ -31,12 +32,7 @@ from push_bag.score.tracking import (
     true_tracking_errors,
 )
 
-LIMITS = {
-    'not_finite': ControllerState.LIMITED_NOT_FINITE,
-    'speed': ControllerState.LIMITED_SPEED,
-    'acceleration': ControllerState.LIMITED_ACCELERATION,
-    'workspace': ControllerState.LIMITED_WORKSPACE,
-}
+LIMITS = {name: bit for bit, name in LIMIT_NAMES.items()}
 
 STILL = 1e-3  # [m] of a reference; one that moves less leads nowhere
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import rclpy
 from push_core.common import RunError
+from push_mpc.loop import Mode
 from push_msgs.msg import ControllerState, NominalTrajectory
 from push_node import interface
 from push_node.ask import READY_TIMEOUT
@@ -20,7 +21,7 @@ from push_bringup.graph.processes import Processes
 from push_bringup.graph.starter import Starter
 
 STALL_TIMEOUT = 10.0  # [s] without a tick
-_STOPPED, _DONE = ControllerState.STOPPED, ControllerState.DONE
+_ENDS = (Mode.DONE, Mode.STOPPED, Mode.FAULT)
 
 
 class Conductor:
@@ -98,7 +99,7 @@ class Conductor:
         return str(self._state.stop_reason) if self._state else ''
 
     def _ended(self) -> bool:
-        return self._state is not None and self._state.mode in (_DONE, _STOPPED)
+        return self._state is not None and self._state.mode in _ENDS
 
     def _on_plan(self, message: NominalTrajectory) -> None:
         self._plan = message

@@ -73,7 +73,7 @@ class InProcessCell:
         assert self._first is not None
         observation, self._first = self._first, None
         origin = nanoseconds(observation.time)
-        while self.controller.mode not in (Mode.DONE, Mode.STOPPED):
+        while self.controller.mode not in (Mode.DONE, Mode.STOPPED, Mode.FAULT):
             started = time.perf_counter()
             tick = self.controller.step(
                 observation.object_pose,

@@ -16,7 +16,7 @@ from push_bag.run import RecordedRun, RecordedTick
 from push_core.common import InputError, replaced
 from push_core.geometry import Array
 from push_gp.models import ANALYTICAL, PushModel, model_named
-from push_mpc.loop import Controller, Mode
+from push_mpc.loop import MOVING, Controller, Mode
 from push_mpc.plan import planned
 from push_mpc.settings import CONTROLLERS
 from tqdm import tqdm
@@ -103,7 +103,11 @@ class RecomputingController(Controller):
         if tick.model_id != self._recorded_id:
             self._take_model(tick.model_id)
         begins = tick.mode == Mode.ARMED and self.mode != Mode.ARMED
-        if begins or (tick.mode == Mode.IDLE and self.mode == Mode.STOPPED):
+        if begins and self.mode in (*MOVING, Mode.STOPPING):
+            # with other settings the run may not have ended where the recorded one did
+            self._sent = np.zeros(2)
+            self.stop('started again')
+        if begins or tick.mode == Mode.IDLE:
             self.resume()
         if begins:
             self.arm(self._plan_start(tick) if self._plan_start else None)
@@ -115,9 +119,8 @@ class RecomputingController(Controller):
         self._recorded_id = recorded_id
 
     def _without_poses(self, tick: RecordedTick) -> Array:
-        if tick.mode == Mode.STOPPED:
+        if tick.stop_reason:
             self.stop(tick.stop_reason)
-            return np.zeros(2)
         return self.hold(tick.now).velocity
 
 

@@ -10,13 +10,15 @@ from push_core.physics.point_contact import (
     sticking_force,
     twist_of_force,
 )
-from push_core.physics.safety import SafetyLimits, limit
+from push_core.physics.safety import LIMIT_NAMES, NOT_FINITE, SafetyLimits, limit, slowed
 from push_core.physics.slider import Slider
 
 __all__ = [
     'ACTUATORS',
     'GRAVITY',
     'GRAZING',
+    'LIMIT_NAMES',
+    'NOT_FINITE',
     'Actuator',
     'ActuatorSettings',
     'ContactMode',
@@ -30,6 +32,7 @@ __all__ = [
     'mobility',
     'sliding_force',
     'slip_sign',
+    'slowed',
     'sticking_force',
     'twist_of_force',
     'uniform_pressure_radius',

@@ -1,8 +1,8 @@
 """Safety limits of every velocity command: one pure function.
 
-It checks for finite numbers, limits acceleration and speed (keeping the direction), and keeps the
-braking distance to the border of the workspace. The workspace comes last: braking for it may
-exceed the acceleration limit.
+It checks for finite numbers, limits acceleration and speed (keeping the direction), keeps the
+braking distance to the border of the workspace, and sends what is slower than a dead band as zero.
+The workspace comes after the acceleration: braking for it may exceed that limit.
 """
 
 import math
@@ -17,12 +17,16 @@ NOT_FINITE = 1
 SPEED = 2
 ACCELERATION = 4
 WORKSPACE = 8
+DEAD_BAND = 16
+
+_FARTHEST = 1e6  # [m], [m/s]; a number beyond is as wrong as one that is not finite
 
 LIMIT_NAMES = {
     NOT_FINITE: 'not_finite',
     SPEED: 'speed',
     ACCELERATION: 'acceleration',
     WORKSPACE: 'workspace',
+    DEAD_BAND: 'dead_band',
 }
 
 
@@ -47,6 +51,10 @@ class SafetyLimits:
         0.6, 'half depth of the workspace about the origin', unit='m', low=0.05, high=5.0
     )
 
+    dead_band: float = setting(
+        1e-5, 'speed below which a command is sent as zero', unit='m/s', low=0.0, high=0.01
+    )
+
     def __post_init__(self) -> None:
         validate(self)
 
@@ -66,13 +74,20 @@ def limit(
     Returns:
         The velocity (2,) to send, and the bits (see `LIMIT_NAMES`) of the limits that changed it.
     """
-    inputs = (*velocity, *previous, *position)
-    if not all(math.isfinite(value) for value in inputs):
+    if not all(abs(value) < _FARTHEST for value in (*velocity, *previous, *position)):
         return np.zeros(2), NOT_FINITE
     limited, bits = _limit_acceleration(velocity, previous, limits.acceleration * period)
     limited, speed_bit = _limit_speed(limited, limits.speed)
     limited, workspace_bit = _limit_workspace(limited, position, limits)
-    return limited, bits | speed_bit | workspace_bit
+    limited, dead_bit = _without_dead_band(limited, limits.dead_band)
+    return limited, bits | speed_bit | workspace_bit | dead_bit
+
+
+def slowed(previous: Array, limits: SafetyLimits, period: float) -> tuple[Array, int]:
+    """The command after `previous` (2,) [m/s] on the way to rest, and the bits of the limits."""
+    if not all(abs(value) < _FARTHEST for value in previous):
+        return np.zeros(2), NOT_FINITE
+    return _limit_acceleration(np.zeros(2), previous, limits.acceleration * period)
 
 
 def _limit_acceleration(velocity: Array, previous: Array, step: float) -> tuple[Array, int]:
@@ -88,6 +103,12 @@ def _limit_speed(velocity: Array, speed: float) -> tuple[Array, int]:
     if norm <= speed:
         return velocity, 0
     return velocity * (speed / norm), SPEED
+
+
+def _without_dead_band(velocity: Array, dead_band: float) -> tuple[Array, int]:
+    if math.hypot(velocity[0], velocity[1]) >= dead_band or not velocity.any():
+        return velocity, 0
+    return np.zeros(2), DEAD_BAND
 
 
 def _limit_workspace(velocity: Array, position: Array, limits: SafetyLimits) -> tuple[Array, int]:

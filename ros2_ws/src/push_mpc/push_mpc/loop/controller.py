@@ -8,11 +8,12 @@ from pkgutil import resolve_name
 import numpy as np
 from push_core.common import InterruptsHeld
 from push_core.geometry import Array, rotation, wrap_angle
-from push_core.physics import Slider, limit
+from push_core.physics import Slider, limit, slowed
 
 from push_mpc.estimate import DisturbanceEstimator, Predictor
+from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
 from push_mpc.loop.prepared_model import PreparedModel
-from push_mpc.loop.tick import FOLLOWING, Mode, Tick
+from push_mpc.loop.tick import Tick
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Placement, Plan, consistent_plan
 from push_mpc.qp import PlannedStates, Problem, Steering
@@ -34,8 +35,7 @@ class Controller:
     def __init__(self, settings: ControllerSettings, slider: Slider, plan: Plan) -> None:
         self.settings = settings
         self.plan = self.track_plan = plan
-        self.mode = Mode.IDLE
-        self.stop_reason = ''
+        self._machine = ModeMachine()
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider)
         self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
@@ -52,6 +52,16 @@ class Controller:
         self._sent = _STILL
         self._seen = 0
         self._start = 0.0
+
+    @property
+    def mode(self) -> Mode:
+        """The mode, see `push_mpc.loop.modes`."""
+        return self._machine.mode
+
+    @property
+    def stop_reason(self) -> str:
+        """Why the run stopped, empty if it did not."""
+        return self._machine.reason
 
     @property
     def model_id(self) -> str:
@@ -111,9 +121,9 @@ class Controller:
         Args:
             start: pose (3,) of the object at which the plan begins; None for that of the track.
         """
+        if not self._machine.take(Event.START):
+            return
         self._place(start)
-        self.mode = Mode.ARMED
-        self.stop_reason = ''
         self._seen = 0
         self._sent = _STILL
         self._predictor.reset()
@@ -132,21 +142,21 @@ class Controller:
         self._prepared = ('', -1)
 
     def stop(self, reason: str) -> None:
-        """Stops; the stop latches until `resume`, and so does its first reason."""
-        if self.mode != Mode.STOPPED:
-            self.mode = Mode.STOPPED
-            self.stop_reason = reason
+        """Brings the command to zero; the stop latches until `resume`, and so does its reason."""
+        self._machine.take(Event.STOP, reason)
+        self._rest_if_still()
 
     def hold(self, now: float) -> Tick:
-        """Commands zero at a time [s], for want of a fresh pose; the next `step` continues."""
-        self._remember(_STILL, now)
-        return Tick(Mode.HOLDING, _STILL, now=now, input=_STILL)
+        """Slows down to zero at a time [s], for want of a fresh pose; `step` continues.
+
+        While the controller comes to rest after a stop, this continues without a pose, too.
+        """
+        self._machine.take(Event.LATE)
+        return self._slow_down(Tick(self.mode, _STILL, now=now), now)
 
     def resume(self) -> None:
         """Releases a stop."""
-        if self.mode == Mode.STOPPED:
-            self.mode = Mode.IDLE
-            self.stop_reason = ''
+        self._machine.take(Event.RESUME)
 
     def step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         """One tick.
@@ -167,13 +177,13 @@ class Controller:
     def _step(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         if not all(abs(value) < _FARTHEST for value in (*object_pose, *tip)):
             self.stop('a pose is not finite or implausibly far away')
-            return Tick(self.mode, _STILL, input=_STILL)
+            return self._slow_down(Tick(self.mode, _STILL), now)
         if self.mode == Mode.ARMED:
             self._count_poses(now)
+        self._machine.take(Event.POSE)
         tick = self._follow(object_pose, tip, exposure, now)
         if self.mode not in FOLLOWING:
-            tick.mode, tick.velocity, tick.input = self.mode, _STILL, _STILL
-            tick.planned = None
+            return self._slow_down(tick, now)
         self._remember(tick.velocity, now)
         return tick
 
@@ -184,10 +194,25 @@ class Controller:
                 solver.forget()
             self._solve(self._model.plan.state[0], 0.0)
 
+    def _slow_down(self, tick: Tick, now: float) -> Tick:
+        """Makes a tick one that slows the tip down, and ends a stop that is at rest."""
+        period = self.settings.period
+        tick.velocity, tick.limited = slowed(self._sent, self.settings.limits, period)
+        tick.input = None if tick.velocity.any() else _STILL
+        tick.planned = None
+        self._remember(tick.velocity, now)
+        self._rest_if_still()
+        tick.mode = self.mode
+        return tick
+
+    def _rest_if_still(self) -> None:
+        if not self._sent.any():
+            self._machine.come_to_rest()
+
     def _remember(self, velocity: Array, now: float) -> None:
         """Records a command for the predictor; before and after tracking all are zero."""
         self._sent = velocity
-        if self.mode in FOLLOWING:
+        if self.mode in (*FOLLOWING, Mode.HOLDING):
             self._predictor.sent(velocity, now)
 
     def prepare_next(self) -> None:
@@ -198,7 +223,7 @@ class Controller:
     def _count_poses(self, now: float) -> None:
         self._seen += 1
         if self._seen > self.settings.good_poses:
-            self.mode = Mode.TRACKING
+            self._machine.take(Event.READY)
             self._start = now + self._predictor.horizon
 
     def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
@@ -207,7 +232,7 @@ class Controller:
             return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
         reference_time = exposure - self._start
         if reference_time >= self.plan.duration:
-            self.mode = Mode.DONE
+            self._machine.take(Event.END)
         self._disturbance.observe(self._model.table, object_pose, tip)
         pose, tip_then, acts_at = object_pose, tip, exposure
         if self.settings.delay_compensation:
@@ -237,7 +262,7 @@ class Controller:
         was_apart = self.mode == Mode.RECONTACT
         # the smaller of both: a gap that is closing, or only predicted, needs no approach
         apart = is_apart(self.settings.recontact, min(seen, gap), was_apart)
-        self.mode = Mode.RECONTACT if apart else Mode.TRACKING
+        self._machine.take(Event.APART if apart else Event.TOUCH)
 
     def _move(self, predicted: Array, gap: float, reference_time: float) -> Tick:
         """Approaches the face, or solves the QP, for a predicted state and reference time [s]."""

@@ -1,28 +1,12 @@
-"""Mode of the controller and the record of one tick."""
+"""The record of one tick."""
 
 import math
 from dataclasses import dataclass
-from enum import IntEnum
 
 from push_core.geometry import Array
 
+from push_mpc.loop.modes import Mode
 from push_mpc.qp import PlannedStates
-
-
-class Mode(IntEnum):
-    """Mode of the controller; the values are those of push_msgs/ControllerState."""
-
-    IDLE = 0
-    ARMED = 1
-    TRACKING = 2
-    DONE = 3
-    STOPPED = 4
-    HOLDING = 5
-    RECONTACT = 6
-
-
-FOLLOWING = (Mode.TRACKING, Mode.RECONTACT)
-"""Modes in which the reference runs."""
 
 
 @dataclass

@@ -17,7 +17,7 @@ class ModeLog:
         self._changes: deque[tuple[Mode, Mode, str]] = deque(maxlen=_MOST)
 
     def note(self, mode: Mode, reason: str) -> None:
-        """Takes the mode of a tick, and the reason of a stop."""
+        """Takes the mode of a tick, and the reason of a stop or fault."""
         if mode != self._mode:
             self._changes.append((self._mode, mode, reason))
             self._mode = mode
@@ -27,7 +27,7 @@ class ModeLog:
         while self._changes:
             before, after, reason = self._changes.popleft()
             line = f'{before.name.lower()} -> {after.name.lower()}'
-            if after == Mode.STOPPED:
+            if reason and before != Mode.STOPPING:
                 logger.error(f'{line}: {reason}')
             else:
                 logger.info(line)

@@ -5,7 +5,6 @@ import sys
 import time
 from collections.abc import Sequence
 
-import numpy as np
 from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
 from push_msgs.msg import ControllerState
@@ -21,7 +20,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from push_mpc.estimate import PoseGate
-from push_mpc.loop import Controller, Mode, Tick, here_fault, start_fault
+from push_mpc.loop import MOVING, Controller, Mode, Tick, here_fault, start_fault
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
@@ -38,7 +37,8 @@ from push_mpc.table import Tabulated
 FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
 GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
-_MOVING = (Mode.ARMED, Mode.TRACKING, Mode.RECONTACT)
+_ACTIVE = (*MOVING, Mode.STOPPING)
+_NOT_AT_REST = 'the tip is not at rest yet'
 
 
 class MpcNode(Node):  # type: ignore[misc]
@@ -82,8 +82,11 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def destroy_node(self) -> None:
         """Leaves the tip at rest."""
-        if self._controller.mode in _MOVING:
+        if self._controller.mode in _ACTIVE:
             self._halt('the controller was shut down')
+        while self._controller.mode == Mode.STOPPING:
+            time.sleep(self._settings.period)
+            self._slow_down()
         # a destroyed publisher drops messages that have not arrived
         for publisher in (self._commands, self._states):
             publisher.wait_for_all_acked(Duration(seconds=FLUSH_TIMEOUT))
@@ -113,8 +116,8 @@ class MpcNode(Node):  # type: ignore[misc]
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(REPORT_PERIOD, self._report, clock=steady)
         self.create_timer(GRAPH_PERIOD, self._watch_others, clock=steady)
-        if not self._lockstep:
-            self.create_timer(self._watchdog.period, self._watch, clock=steady)
+        watch = self._watch_lockstep if self._lockstep else self._watch
+        self.create_timer(self._watchdog.period, watch, clock=steady)
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
@@ -141,13 +144,13 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _refused(self, reason: str) -> None:
         """Stops on a refused pose in lockstep, where the plant waits for an answer."""
-        if self._lockstep and self._controller.mode in _MOVING:
+        if self._lockstep and self._controller.mode in _ACTIVE:
             self._halt(reason)
 
     def _watch_others(self) -> None:
         """Stops when another node commands the tip or none records; writes the mode log."""
         fault = self._graph.warning() or self._unrecorded()
-        if fault and self._controller.mode in _MOVING:
+        if fault and self._controller.mode in MOVING:
             self._halt(fault)
         self._mode_log.write(self.get_logger())
 
@@ -193,21 +196,30 @@ class MpcNode(Node):  # type: ignore[misc]
     def _watch(self) -> None:
         """Holds or stops the tip when poses are late; poses themselves drive everything else."""
         slept = self._watchdog.slept(time.monotonic())
-        age = self._poses.age
-        if slept or self._controller.mode not in _MOVING or age <= self._settings.pose_timeout:
+        mode, age = self._controller.mode, self._poses.age
+        if slept or mode not in _ACTIVE or age <= self._settings.pose_timeout:
             return
-        if age > self._settings.pose_loss:
+        if age > self._settings.pose_loss and mode in MOVING:
             why = self._poses.explanation()
             self._halt(f'no pose for {1e3 * age:.0f} ms' + (f': {why}' if why else ''))
-        else:
-            stamp, now = self._poses.now()
-            self._publish(self._controller.hold(now), stamp)
+        elif mode != Mode.ARMED:
+            self._slow_down()
+
+    def _watch_lockstep(self) -> None:
+        """Ends a stop for which the plant no longer sends poses."""
+        stopping = self._controller.mode == Mode.STOPPING and self._controller.stop_reason
+        if stopping and self._poses.age > self._settings.pose_loss:
+            self._slow_down()
 
     def _halt(self, reason: str) -> None:
-        """Stops at once, without waiting for a pose."""
+        """Stops without waiting for a pose."""
         self._controller.stop(reason)
-        self._publish(Tick(Mode.STOPPED, np.zeros(2)), self._poses.now()[0])
+        self._slow_down()
         self._mode_log.write(self.get_logger())
+
+    def _slow_down(self) -> None:
+        stamp, now = self._poses.now()
+        self._publish(self._controller.hold(now), stamp)
 
     def _publish(self, tick: Tick, stamp: int) -> None:
         """Publishes a tick that answers no pose."""
@@ -215,7 +227,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._publish_state(tick, stamp, 0.0)
 
     def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
-        if self._controller.mode in _MOVING:
+        if self._controller.mode in MOVING:
             # a repeated request, whose first response was lost, must not restart the run
             answer.success, answer.message = True, 'already started'
             return answer
@@ -248,14 +260,16 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _on_resume(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         self._controller.resume()
-        answer.success, answer.message = True, f'released; {interface.START.name} begins anew'
+        answer.success = self._controller.mode != Mode.STOPPING
+        released = f'released; {interface.START.name} begins anew'
+        answer.message = released if answer.success else _NOT_AT_REST
         return answer
 
     def _obstacle(self) -> str:
         """Why the run cannot start, empty if it can."""
-        if self._controller.mode == Mode.STOPPED:
+        if self._controller.stop_reason or self._controller.mode == Mode.STOPPING:
             reason, resume = self._controller.stop_reason, interface.RESUME.name
-            return f'stopped: {reason}; call {resume} first'
+            return f'stopped: {reason}; call {resume} first' if reason else _NOT_AT_REST
         if not self._controller.model_id:
             return f'waiting for the model: {self._model.problem}'
         if self._settings.require_recorder and self._recorder.obstacle:
@@ -287,8 +301,7 @@ class MpcNode(Node):  # type: ignore[misc]
         return self._model.problem or poses or self._graph.warning()
 
     def _report(self) -> None:
-        stopped = self._controller.mode == Mode.STOPPED
-        reason = self._controller.stop_reason if stopped else self._warning()
+        reason = self._controller.stop_reason or self._warning()
         values = {
             'model': self._controller.model_id,
             'table': str(self._table or ''),

@@ -176,6 +176,7 @@ class SimNode(Node):  # type: ignore[misc]
             'late_frames': str(self._pace.late_frames),
             'contact': str(self._plant.contact).lower(),
             'watchdog': 'holds' if self._plant.braking else 'fed',
+            **{f'limited_{name}': str(n) for name, n in sorted(self._plant.limited.items())},
         }
         message = f'{self._conflict}; the driver brakes' if self._conflict else 'running'
         self._reporter.report(not self._conflict, message, values)

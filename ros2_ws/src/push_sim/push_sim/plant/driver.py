@@ -1,25 +1,46 @@
-"""The robot's driver: executes velocity commands, and brakes when they stop arriving."""
+"""The robot's driver: limits and executes velocity commands, and brakes when none arrive."""
 
 import math
-from collections import deque
+from collections import Counter, deque
 
 import numpy as np
 from push_core.geometry import Array
-from push_core.physics import Actuator, ActuatorSettings, Pair
+from push_core.physics import (
+    LIMIT_NAMES,
+    NOT_FINITE,
+    Actuator,
+    ActuatorSettings,
+    Pair,
+    SafetyLimits,
+    limit,
+)
 
 
 class Driver:
-    """Feeds the actuator; its watchdog uses the plant's clock, not the stamps of the commands."""
+    """Feeds the actuator; its watchdog uses the plant's clock, not the stamps of the commands.
 
-    def __init__(self, settings: ActuatorSettings, timeout: float, loss: float = 0.0) -> None:
+    Attributes:
+        limited: commands that each limit changed, by the names of `LIMIT_NAMES`, since the start.
+    """
+
+    def __init__(
+        self,
+        settings: ActuatorSettings,
+        timeout: float,
+        loss: float = 0.0,
+        limits: SafetyLimits | None = None,
+    ) -> None:
         """Starts at rest.
 
         Args:
             settings: actuator of the robot.
             timeout: time without a command after which it brakes [s].
             loss: fraction of commands that are lost before they arrive.
+            limits: of a command, whoever sends it; the actuator limits the acceleration.
         """
+        self.limited: Counter[str] = Counter()
         self._actuator = Actuator(settings)
+        self._limits = limits or SafetyLimits()
         self.change(timeout, loss)
         self.reset(np.random.default_rng())
 
@@ -46,14 +67,19 @@ class Driver:
         """Whether the watchdog is braking the tip or holding it at rest."""
         return self._braking
 
-    def command(self, velocity: Array, arrival: float) -> None:
+    def command(self, velocity: Array, arrival: float, position: Array) -> None:
         """Takes a velocity (2,) [m/s] that arrives at a time [s], not before the last one.
 
-        A velocity that is not finite is ignored; the watchdog then stops the tip.
+        A velocity that is not finite is ignored; the watchdog then stops the tip, which is at
+        `position` (2,) [m].
         """
-        if not np.isfinite(velocity).all() or self._is_lost():
+        if self._is_lost():
             return
-        self._inbox.append((arrival, np.array(velocity, dtype=float)))
+        limited, bits = limit(velocity, velocity, position, self._limits, 0.0)
+        if bits:
+            self.limited.update(name for bit, name in LIMIT_NAMES.items() if bits & bit)
+        if not bits & NOT_FINITE:
+            self._inbox.append((arrival, np.array(limited, dtype=float)))
 
     def _is_lost(self) -> bool:
         return self._loss > 0.0 and self._random.random() < self._loss

@@ -1,6 +1,7 @@
 """The plant: world, robot, cameras and perturbations, one period at a time."""
 
 import copy
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -54,7 +55,9 @@ class Plant:
     def __init__(self, settings: SimSettings, slider: Slider) -> None:
         self._settings = settings, slider
         self._world = make_world(settings.world, slider)
-        self._driver = Driver(settings.actuator, settings.command_timeout, settings.command_loss)
+        self._driver = Driver(
+            settings.actuator, settings.command_timeout, settings.command_loss, settings.limits
+        )
         self._sensor = Sensor(settings.sensor)
         self._schedule = Schedule(settings.perturbation)
         self._substeps = settings.world.substeps
@@ -97,7 +100,7 @@ class Plant:
         """Sends a tip velocity (2,) [m/s] to the driver; it arrives at a plant time [s]."""
         if any(velocity):
             self._schedule.motion_commanded(arrival)
-        self._driver.command(velocity, arrival)
+        self._driver.command(velocity, arrival, self.tip_position)
 
     def change(self, settings: SimSettings) -> None:
         """Uses other friction, sensor, perturbation, losses and start offset from now on.
@@ -207,6 +210,11 @@ class Plant:
     def braking(self) -> bool:
         """Whether the driver's watchdog is braking or holding the tip."""
         return self._driver.braking
+
+    @property
+    def limited(self) -> Mapping[str, int]:
+        """Number of commands that each of the driver's limits changed."""
+        return self._driver.limited
 
     @property
     def _substep(self) -> float:

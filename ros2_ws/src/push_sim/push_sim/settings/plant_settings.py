@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 from push_core.common import InputError, nested, setting, validate
-from push_core.physics import ACTUATORS, ActuatorSettings
+from push_core.physics import ACTUATORS, ActuatorSettings, SafetyLimits
 
 from push_sim.settings.world_settings import WorldSettings
 
@@ -107,6 +107,9 @@ class SimSettings:
     sensor: SensorSettings = nested(SensorSettings())
     perturbation: PerturbationSettings = nested(PerturbationSettings())
     start_offset: StartOffset = nested(StartOffset())
+    limits: SafetyLimits = nested(
+        SafetyLimits(), {'acceleration': 'the driver has actuator.acceleration_limit'}
+    )
     command_timeout: float = setting(
         0.05,
         'time without a command until the driver brakes',
