@@ -21,6 +21,8 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recording',
     'push_bag.replay.node_comparison',
     'push_bringup.driver_check.driver_client',
+    'push_bringup.faults.campaign',
+    'push_bringup.faults.kinds',
     'push_bringup.graph.starter',
     'push_gp.server.conversions',
     'push_gp.training.fit_cone',

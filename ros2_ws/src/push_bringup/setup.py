@@ -29,6 +29,7 @@ setup(
             'bench = push_bringup.console:bench',
             'cell = push_bringup.console:cell',
             'check_driver = push_bringup.console:check_driver',
+            'faults = push_bringup.console:faults',
             'parameters = push_bringup.console:parameters',
             'start = push_bringup.console:start',
         ],

@@ -5,9 +5,10 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from push_core.common import RunError
 
@@ -43,10 +44,27 @@ class Child:
 class Processes:
     """The nodes of one cell; as a context manager it stops them all at its end."""
 
-    def __init__(self, params: Path, namespace: str, logs: Path) -> None:
+    def __init__(
+        self,
+        params: Path,
+        namespace: str,
+        logs: Path,
+        modules: Mapping[str, str] = MODULES,
+        arguments: Mapping[str, Sequence[str]] = MappingProxyType({}),
+    ) -> None:
+        """Starts nothing yet.
+
+        Args:
+            params: resolved parameter file.
+            namespace: of the nodes, '' for none.
+            logs: folder for their output.
+            modules: of the nodes, by name.
+            arguments: further ROS arguments of single nodes.
+        """
         self._params = params
         self._namespace = namespace
         self._logs = logs
+        self._modules, self._arguments = modules, arguments
         self._children: dict[str, Child] = {}
 
     def __enter__(self) -> 'Processes':
@@ -57,8 +75,9 @@ class Processes:
 
     def start(self) -> None:
         """Starts all nodes."""
-        for name, module in MODULES.items():
-            command = [sys.executable, '-m', module, '--ros-args', *self._ros_arguments()]
+        for name, module in self._modules.items():
+            arguments = (*self._ros_arguments(), *self._arguments.get(name, ()))
+            command = [sys.executable, '-m', module, '--ros-args', *arguments]
             log = self._logs / f'{name}.log'
             with log.open('wb') as output:
                 # its own session: Ctrl-C reaches only the cell, which stops the nodes in order
@@ -85,6 +104,10 @@ class Processes:
     def status(self, name: str) -> int | None:
         """Exit status of a node, None while it runs."""
         return self._children[name].process.poll()
+
+    def pid(self, name: str) -> int:
+        """Process id of a node."""
+        return self._children[name].process.pid
 
     def interrupt(self, *names: str) -> None:
         """Interrupts nodes, of those that were started."""

@@ -5,7 +5,7 @@ from push_mpc.qp.planned_states import PlannedStates
 from push_mpc.qp.problem import Problem
 from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX
-from push_mpc.qp.steering import LinearisedPlan, Steering
+from push_mpc.qp.steering import LinearisedPlan, Move, Steering
 from push_mpc.qp.velocity_steering import VelocitySteering
 
 __all__ = [
@@ -13,6 +13,7 @@ __all__ = [
     'OSQP_SETTINGS',
     'ForceSteering',
     'LinearisedPlan',
+    'Move',
     'PlannedStates',
     'Problem',
     'Steering',
