@@ -104,11 +104,20 @@ class Bed:
             raise RunError(f'the run ended before the fault: {self.reason}')
 
     def release(self) -> None:
-        """Heals what was made sick and brings the controller back to IDLE."""
+        """Heals what was made sick and brings the controller back to IDLE.
+
+        Raises:
+            RunError: a node has ended.
+        """
         self.relay.spoil = None
         self.make_sick('')
+        self.processes.check()
         ask(self._stop, Trigger.Request(), self.wait)
-        self.wait(lambda: bool(ask(self._resume, Trigger.Request(), self.wait).success), 10.0)
+        self.wait(self._released, 10.0)
+
+    def _released(self) -> bool:
+        answer = ask(self._resume, Trigger.Request(), self.wait)
+        return answer is not None and bool(answer.success)
 
     @property
     def ended(self) -> bool:
