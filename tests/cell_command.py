@@ -1,5 +1,6 @@
 """Commands of the project as a user runs them, and how they ended."""
 
+import contextlib
 import subprocess
 import time
 from collections.abc import Callable
@@ -7,12 +8,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from push_bag.run.run_reader import read_run
+from push_bag.run.run_reader import read_run, read_starts
+from push_bag.run.series import RunSeries
 from push_core.common.errors import InputError
+from push_msgs.msg import ControllerState
 
 CELL = ('ros2', 'run', 'push_bringup', 'cell')
 # in real time: a machine that takes the cores away for half a second shall not end the run
 PATIENT = ('-p', 'mpc_node.pose_loss:=10.0')
+ENDED = (ControllerState.DONE, ControllerState.STOPPED)
 HANG = 300.0  # [s]; nothing but a hang takes that long
 
 
@@ -63,3 +67,15 @@ def wait_until(condition: Callable[[], bool], cell: 'subprocess.Popen[str]') -> 
         assert cell.poll() is None, cell.communicate()
         assert time.monotonic() < deadline
         time.sleep(0.2)
+
+
+def wait_until_ended(folder: Path, number: int = 1) -> RunSeries:
+    """Waits until a start of a bag that is still being written has ended; returns it."""
+    deadline = time.monotonic() + HANG
+    while True:
+        assert time.monotonic() < deadline
+        time.sleep(0.5)
+        with contextlib.suppress(InputError):
+            runs = read_starts(folder)
+            if len(runs) >= number and runs[-1].state('mode')[-1] in ENDED:
+                return runs[-1]

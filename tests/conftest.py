@@ -58,3 +58,25 @@ def pushing_cell(environment: dict[str, str], tmp_path: Path) -> Iterator['subpr
     if cell.poll() is None:
         cell.send_signal(signal.SIGKILL)
     cell.communicate()
+
+
+@pytest.fixture
+def by_hand(
+    environment: dict[str, str], tmp_path: Path
+) -> Iterator[Callable[..., 'subprocess.Popen[bytes]']]:
+    """Starts nodes one by one; ends those that still run after the test."""
+    started: list[subprocess.Popen[bytes]] = []
+
+    def start(package: str, node: str, *parameters: str) -> 'subprocess.Popen[bytes]':
+        command = ['ros2', 'run', package, node, '--ros-args', *parameters]
+        # run in a session of its own, `ros2 run` and its node get one signal
+        started.append(
+            subprocess.Popen(command, env=environment, cwd=tmp_path, start_new_session=True)
+        )
+        return started[-1]
+
+    yield start
+    for process in started:
+        if process.poll() is None:
+            process.kill()
+        process.wait()

@@ -57,6 +57,31 @@ def test_a_learned_model_gets_round_about_as_well_as_published(lap: Lap) -> None
     assert error < LARGEST_ERROR
 
 
+@pytest.mark.parametrize('every', [1, 2, 3])
+def test_cameras_that_see_less_often_cost_little(model: GpModel, every: int) -> None:
+    """Down to 33 Hz; the tip holds the velocity until the next command."""
+    mpc = replace(mpc_settings('irb120'), mode='lockstep')
+    parameters = CellParameters(node_settings('irb120'), ServerSettings(), mpc, RecorderSettings())
+    cell = InProcessCell(parameters, model, planned(mpc))
+    controller, plant, seen = cell.controller, cell.plant, cell._reset()
+    controller.arm()
+    origin, errors = seen.time, []
+    while controller.mode not in (Mode.DONE, Mode.STOPPED):
+        times = seen.time - origin, plant.time - origin
+        tick = controller.step(seen.object_pose, seen.tip_position, *times)
+        controller.prepare_next()
+        if tick.reference_time >= 0.0:
+            wanted, _ = controller.plan.at(tick.reference_time)
+            errors.append(np.hypot(*(seen.object_pose[:2] - wanted[:2])))
+        plant.command(tick.velocity, plant.time)
+        for _ in range(every):
+            seen = plant.step_until_seen()
+    cell.close()
+    print(f'each pose of {every}: {1e3 * np.mean(errors):.2f} mm')
+    assert controller.mode == Mode.DONE
+    assert np.mean(errors) < LARGEST_ERROR
+
+
 def test_without_delay_compensation_it_errs_ten_times_as_much(lap: Lap) -> None:
     _, with_compensation = lap()
     _, without = lap(delay_compensation=False)

@@ -1,20 +1,17 @@
 """Four nodes that were started by hand are recorded with all that a recomputation needs."""
 
-import contextlib
 import signal
 import subprocess
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from cell_command import HANG, Ended
+from cell_command import HANG, Ended, wait_until_ended
 from push_bag.file.reader import BagReader
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_starts
 from push_bag.score.score import score_run, score_series
-from push_core.common.errors import InputError
 from push_core.data.push_set import PushSet
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
@@ -37,38 +34,6 @@ def model(tmp_path: Path) -> Path:
     return path
 
 
-@pytest.fixture
-def by_hand(
-    environment: dict[str, str], tmp_path: Path
-) -> Iterator[Callable[..., 'subprocess.Popen[bytes]']]:
-    """Starts nodes one by one; ends those that still run after the test."""
-    started: list[subprocess.Popen[bytes]] = []
-
-    def start(package: str, node: str, *parameters: str) -> 'subprocess.Popen[bytes]':
-        command = ['ros2', 'run', package, node, '--ros-args', *parameters]
-        # run in a session of its own, `ros2 run` and its node get one signal
-        started.append(
-            subprocess.Popen(command, env=environment, cwd=tmp_path, start_new_session=True)
-        )
-        return started[-1]
-
-    yield start
-    for process in started:
-        if process.poll() is None:
-            process.kill()
-        process.wait()
-
-
-def wait_until_completed(folder: Path, number: int) -> None:
-    """Waits until a start of a bag that is still being written is completed."""
-    deadline, starts = time.monotonic() + HANG, []
-    while len(starts) < number or not starts[-1]['completed']:
-        assert time.monotonic() < deadline, starts
-        time.sleep(0.5)
-        with contextlib.suppress(InputError):
-            starts = [score_series(run) for run in read_starts(folder)]
-
-
 def test_two_runs_that_begin_where_the_object_lies_recompute_bit_for_bit(
     by_hand: Callable[..., 'subprocess.Popen[bytes]'],
     environment: dict[str, str],
@@ -85,7 +50,7 @@ def test_two_runs_that_begin_where_the_object_lies_recompute_bit_for_bit(
     for number in (1, 2):
         started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
         assert started.status == 0, started.err
-        wait_until_completed(tmp_path / 'run1', number)
+        assert not wait_until_ended(tmp_path / 'run1', number).stop_reason
     recorder.send_signal(signal.SIGINT)
     assert recorder.wait(timeout=HANG) == 0
 
@@ -117,7 +82,7 @@ def test_two_runs_of_nodes_started_by_hand_are_scored_apart_and_recompute_bit_fo
     for number in (1, 2):
         started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
         assert started.status == 0, started.err
-        wait_until_completed(tmp_path / 'run1', number)
+        assert not wait_until_ended(tmp_path / 'run1', number).stop_reason
     recorder.send_signal(signal.SIGINT)
     assert recorder.wait(timeout=HANG) == 0
 

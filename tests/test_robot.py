@@ -8,7 +8,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from cell_command import Ended
+from cell_command import Ended, wait_until_ended
+from push_bag.replay.recompute import Changes, recomputed
+from push_bag.run.run_reader import read_run
+from push_bag.score.score import score_series
 
 pytestmark = pytest.mark.processes
 
@@ -80,3 +83,41 @@ def test_nothing_moves_while_another_node_commands(
         ended = check()
     assert 'FAILED      nobody else commands: 1 other nodes' in ended.out
     assert 'not tested  motion: a point above must be kept first' in ended.out
+
+
+def test_a_robot_pushes_a_lap_from_where_the_object_lies(
+    environment: dict[str, str],
+    by_hand: Callable[..., 'subprocess.Popen[bytes]'],
+    tmp_path: Path,
+) -> None:
+    """Its cameras and its arm have rates and delays of their own, and it has no reset."""
+    lag = ('-p', 'actuator.dead_time:=0.04', '-p', 'actuator.lag:=0.03')
+    here = ('-p', 'start_from:=here', '-p', 'track:=circle', '-p', 'pose_loss:=10.0')
+    with running(environment, str(DRIVER)):
+        by_hand('push_gp', 'gp_server')
+        by_hand('push_bag', 'recorder', '-p', 'folder:=run')
+        by_hand('push_mpc', 'mpc_node', *here, *lag, '-p', 'controller:=analytical')
+        started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
+        assert started.status == 0, started.err
+        run = wait_until_ended(tmp_path / 'run')
+    if run.stop_reason.startswith(('no pose', 'the pusher is')):
+        pytest.skip(f'the machine is too busy for a run in real time: {run.stop_reason}')
+    assert run.stop_reason == ''
+    assert run.reference is not None
+    assert run.reference.pose[0] == pytest.approx([0.05, -0.03, 0.4], abs=1e-3)
+    score = score_series(run)
+    assert score['completed']
+    assert score['tracking_error_mm']['mean'] < 5.0
+    if not any(each['lost'] for each in score['messages'].values()):
+        assert recomputed(tmp_path / 'run', Changes()).same
+
+
+def test_a_cell_begins_where_the_simulator_put_the_object(run_cell: Callable[..., Ended]) -> None:
+    chosen = ('--mode', 'lockstep', '--track', 'line', '--controller', 'analytical')
+    place = ('-p', 'start.x:=-0.1', '-p', 'start.y:=0.2', '-p', 'start.theta:=-1.0')
+    run = run_cell(*chosen, '--start', 'here', *place)
+    assert run.status == 0, run.err
+    recorded = read_run(run.folder)
+    assert recorded.reference is not None
+    assert recorded.reference.pose[0] == pytest.approx([-0.1, 0.2, -1.0], abs=0.005)
+    assert recomputed(run.folder, Changes()).same

@@ -96,6 +96,16 @@ class Cell:
                 self.spoil_tip(message)
             publisher.publish(message)
 
+    def send_tip(self, stamp: int, aside: float) -> None:
+        """The tip at the face of the object, aside from its middle [m]."""
+        self._pusher.publish(_pose(stamp, self._tip[0], aside))
+
+    def send_object(self, stamp: int) -> None:
+        self._object.publish(_pose(stamp, 0.0, 0.0))
+
+    def answered(self, stamp: int) -> bool:
+        return to_nanoseconds(self.states[-1].header.stamp) == stamp
+
     def _report(self) -> None:
         if self.recording:
             status = DiagnosticStatus(level=DiagnosticStatus.OK, name='/recorder: recording')
@@ -143,6 +153,13 @@ class Cell:
         self.announce_model()
         self.call_until('start', lambda answer: answer.success)
         self.wait(lambda: self.mode() == ControllerState.TRACKING)
+
+
+def _pose(stamp: int, x: float, y: float) -> PoseStamped:
+    message = PoseStamped()
+    message.header.stamp, message.header.frame_id = to_stamp(stamp), 'world'
+    message.pose.position.x, message.pose.position.y = float(x), float(y)
+    return message
 
 
 @pytest.fixture
@@ -457,6 +474,43 @@ def test_stamps_of_two_devices_pair(cell, started) -> None:
     started(LINE)
     cell.spoil_tip = shifted(-0.003)
     cell.begin()
+
+
+@pytest.mark.parametrize(
+    ('period', 'tip_period', 'latency', 'tolerance'),
+    [(23.7, 4.1, 30.0, 5.0), (33.3, 4.0, 0.0, 5.0), (10.0, 37.0, 12.0, 20.0)],
+    ids=['slow cameras', 'at once', 'slow tip'],
+)
+def test_each_pose_pairs_with_the_nearest_of_the_tip_at_any_rates(
+    make_cell, started, period: float, tip_period: float, latency: float, tolerance: float
+) -> None:
+    """The tip's place tells its time: it wanders along the face by 0.1 mm in each millisecond."""
+    cell = make_cell(QoSProfile(depth=100))
+    started(LINE, f'poses.pair_tolerance:={1e-3 * tolerance}', 'poses.max_age:=10.0')
+    cell.poses_on = True
+    cell.wait(lambda: len(cell.states) > 0)
+    cell.poses_on = False
+    cell.happens(lambda: False, 0.5)
+    start = cell.node.get_clock().now().nanoseconds
+    count = int(300.0 / tip_period)
+    tips = tip_period * np.arange(count) + np.random.default_rng(1).uniform(-1.0, 1.0, count)
+    exposures = np.arange(50.0, 250.0, period)
+    time.sleep(0.3)
+    sent = paired = 0
+    for exposure in exposures:
+        while sent < len(tips) and tips[sent] <= exposure + latency:
+            cell.send_tip(start + round(1e6 * tips[sent]), 1e-4 * (tips[sent] - 150.0))
+            sent += 1
+        # the object's pose has another way to the node
+        cell.happens(lambda: False, 0.05)
+        nearest = min(tips[:sent], key=lambda time, at=exposure: abs(time - at))
+        stamp = start + round(1e6 * exposure)
+        cell.send_object(stamp)
+        if abs(nearest - exposure) <= tolerance:
+            cell.wait(lambda stamp=stamp: cell.answered(stamp))
+            assert cell.states[-1].state[3] == pytest.approx(1e-4 * (nearest - 150.0), abs=1e-9)
+            paired += 1
+    assert paired > 0.7 * len(exposures)
 
 
 def test_stamps_too_far_apart_are_named(cell, started) -> None:

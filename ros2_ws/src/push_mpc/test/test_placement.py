@@ -83,6 +83,11 @@ def test_a_new_model_is_followed_along_the_moved_plan(make_cell, tabulated) -> N
 def test_the_next_start_may_be_that_of_the_track_again(make_cell) -> None:
     made, fresh = make_cell(SETTINGS), make_cell(SETTINGS)
     made.controller.arm(THERE)
+    made.controller.stop('asked to')
+    tip = to_world(THERE, np.array([SETTINGS.slider.tip_x, 0.0]))
+    for number in range(30):
+        made.controller.step(THERE, tip, 0.01 * number, 0.01 * number)
+    made.controller.resume()
     made.controller.arm()
     fresh.controller.arm()
     np.testing.assert_array_equal(made.controller.plan.state, fresh.controller.plan.state)

@@ -9,6 +9,8 @@ POSE = QoSProfile(
 )
 # for subscribers to poses: matches every publisher, reliable or not, with or without a deadline
 POSE_SUBSCRIPTION = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+# for those that need each pose, also those that came while they were busy
+POSE_HISTORY = QoSProfile(depth=64, reliability=ReliabilityPolicy.BEST_EFFORT)
 COMMAND = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 LATCHED = QoSProfile(
     depth=1,

@@ -18,7 +18,7 @@ from tqdm import tqdm
 
 from push_bag.replay.node_client import NodeClient, TickInput
 from push_bag.replay.recompute import Recomputed
-from push_bag.run import ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
+from push_bag.run import PAIRED, ByStamp, Floats, RecordedRun, RecordedTick, nanoseconds
 
 POSES = (OBJECT_POSE.short_name, PUSHER_POSE.short_name)
 
@@ -102,9 +102,12 @@ class NodeComparison:
         object_pose, tip = (self._message(name, tick) for name in POSES)
         if math.isnan(tick.exposure) or object_pose is None or tip is None:
             return None
+        # in lockstep, as which the node runs, the stamps of a pair are equal
+        tip.header.stamp = object_pose.header.stamp
         now = tick.stamp + round((tick.now - tick.exposure) * 1e9)
         return TickInput(tick.stamp, now, object_pose, tip)
 
     def _message(self, name: str, tick: RecordedTick) -> Any:
-        row = self._by_stamp[name].row(tick.stamp, tick.published)
+        within = PAIRED if name == PUSHER_POSE.short_name else 0
+        row = self._by_stamp[name].row(tick.stamp, tick.published, within)
         return None if row is None else self._messages[name][row]

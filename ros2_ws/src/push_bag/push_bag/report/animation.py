@@ -81,7 +81,7 @@ def _span(runs: Sequence[ReportedRun]) -> tuple[list[float], list[float]]:
 def _frames(run: ReportedRun) -> dict[str, Any]:
     tracking, reference = run.tracking, run.reference
     chosen = _chosen(tracking.reference_time)
-    index, _ = run.series.pusher.at(tracking.stamp[chosen])
+    index, _ = run.series.pusher.near(tracking.stamp[chosen])
     tip = run.series.pusher.values[index] * 1e3 if index.size else np.zeros((0, 2))
     pose = tracking.pose[chosen]
     planned = Horizons.of(run.series.horizons).at(tracking.stamp[chosen]) * 1e3

@@ -30,7 +30,7 @@ def prediction_errors(run: RunSeries, reference: Reference) -> tuple[Floats, Flo
 
 def tip_velocities(run: RunSeries) -> tuple[Floats, Floats]:
     """Reference times (n,) [s], and the measured velocity [v_n, v_t] (n, 2) of the tip [m/s]."""
-    index, exists = run.object.at(run.pusher.stamp)
+    index, exists = run.object.near(run.pusher.stamp)
     used = exists & during_tracking(run, run.pusher.stamp)
     stamp, tip, heading = (
         run.pusher.stamp[used],

@@ -5,6 +5,7 @@ from push_bag.run.horizons import Horizons
 from push_bag.run.recorded_ticks import ByStamp, RecordedRun, RecordedTick
 from push_bag.run.run_reader import read_run, read_starts
 from push_bag.run.series import (
+    PAIRED,
     Floats,
     Nanoseconds,
     PerturbationEvent,
@@ -14,6 +15,7 @@ from push_bag.run.series import (
 )
 
 __all__ = [
+    'PAIRED',
     'ByStamp',
     'Floats',
     'Horizons',

@@ -1,5 +1,6 @@
 """The ticks of a recorded controller: inputs and command of each."""
 
+import math
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,6 +23,7 @@ from push_bag.run.conversions import (
     velocities,
 )
 from push_bag.run.parameter_changes import merged, parameter_changes
+from push_bag.run.series import PAIRED
 from push_bag.run.topic_table import TopicTable
 
 OBJECT_POSE = interface.OBJECT_POSE.short_name
@@ -46,7 +48,7 @@ class RecordedTick:
         model_id: of the model in use.
         stop_reason: why the controller stopped; empty if it did not.
         object_pose: (3,) measured [m, m, rad]; None without poses, or if the bag lacks it.
-        tip: (2,) measured [m]; None likewise.
+        tip: (2,) measured [m] at a time nearest to that of the object; None likewise.
         velocity: (2,) commanded [m/s]; None if no command was sent or recorded.
         changes: parameters of the controller that changed since the tick before, by name.
     """
@@ -112,12 +114,16 @@ class RecordedRun:
         self._changes = [change for change in changes if change.node == controller]
         self._changed_at = [change.published for change in self._changes]
 
-    def ticks(self) -> Iterator[RecordedTick]:
-        """All ticks in the order in which they were computed."""
+    def ticks(self, paired: int = PAIRED) -> Iterator[RecordedTick]:
+        """All ticks in the order in which they were computed.
+
+        Args:
+            paired: difference of the stamps of object and tip [ns] that still pairs.
+        """
         since = 0
         for row in np.argsort(self._states.published, kind='stable').tolist():
             until = bisect_left(self._changed_at, int(self._states.published[row]))
-            yield self._tick(row, merged(self._changes[since:until]))
+            yield self._tick(row, paired, merged(self._changes[since:until]))
             since = until
 
     def plan_start(self, tick: RecordedTick) -> Array:
@@ -135,10 +141,12 @@ class RecordedRun:
     def __len__(self) -> int:
         return self._states.stamp.size
 
-    def _tick(self, row: int, changes: Mapping[str, Any]) -> RecordedTick:
+    def _tick(self, row: int, paired: int, changes: Mapping[str, Any]) -> RecordedTick:
         stamp, published = int(self._states.stamp[row]), int(self._states.published[row])
         mode, exposure, now = self._states.values[row].tolist()
         values = {name: self._values(name, stamp, published) for name in self._rows}
+        if values[TIP_POSE] is None and not math.isnan(exposure):
+            values[TIP_POSE] = self._values(TIP_POSE, stamp, published, paired)
         model_id, stop_reason = self._names[row]
         return RecordedTick(
             stamp=stamp,
@@ -154,8 +162,8 @@ class RecordedRun:
             changes=changes,
         )
 
-    def _values(self, name: str, stamp: int, published: int) -> Array | None:
-        row = self._by_stamp[name].row(stamp, published)
+    def _values(self, name: str, stamp: int, published: int, within: int = 0) -> Array | None:
+        row = self._by_stamp[name].row(stamp, published, within)
         return None if row is None else np.asarray(self._rows[name].values[row])
 
     def _tick_values(self, columns: Columns) -> Array:
@@ -174,17 +182,27 @@ class ByStamp:
             published: their publish times [ns].
         """
         self._published = published
+        self._ordered = sorted(zip(stamps, range(len(stamps)), strict=True))
         self._rows_by_stamp: dict[int, list[int]] = {}
         for row, stamp in enumerate(stamps):
             self._rows_by_stamp.setdefault(stamp, []).append(row)
 
-    def row(self, stamp: int, time: int) -> int | None:
+    def row(self, stamp: int, time: int, within: int = 0) -> int | None:
         """Index of the last message with this stamp [ns] published until a time [ns].
 
-        The first with this stamp if all were published later; None without any.
+        The first with this stamp if all were published later. Without any, that with the nearest
+        stamp of those published until then; None if it is not within a time [ns].
         """
         rows = self._rows_by_stamp.get(stamp)
         if not rows:
-            return None
+            return self._nearest(stamp, time, within)
         published = [row for row in rows if self._published[row] <= time]
         return (published or rows[:1])[-1]
+
+    def _nearest(self, stamp: int, time: int, within: int) -> int | None:
+        low = bisect_left(self._ordered, (stamp - within, 0))
+        high = bisect_left(self._ordered, (stamp + within + 1, 0))
+        near = [each for each in self._ordered[low:high] if self._published[each[1]] <= time]
+        if not near:
+            return None
+        return min(near, key=lambda each: (abs(each[0] - stamp), -each[0]))[1]

@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 Nanoseconds = NDArray[np.int64]
 NEVER = 2**63 - 1  # a time [ns] after all others
 
+PAIRED = 5_000_000  # [ns] between the stamps of two poses of the same time
+
 
 @dataclass(frozen=True)
 class Stamped:
@@ -48,6 +50,19 @@ class Stamped:
             return np.zeros(stamps.size, np.intp), np.zeros(stamps.size, np.bool_)
         index = np.minimum(np.searchsorted(self.stamp, stamps), self.stamp.size - 1)
         return index, self.stamp[index] == stamps
+
+    def near(self, stamps: Nanoseconds) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """Indices (m,) of the messages nearest to stamps (m,), and whether each is near enough.
+
+        Tip and object may be measured at times of their own, up to `PAIRED` apart.
+        """
+        after, exists = self.at(stamps)
+        if not self.stamp.size:
+            return after, exists
+        before = np.maximum(after - 1, 0)
+        earlier = np.abs(stamps - self.stamp[before]) < np.abs(self.stamp[after] - stamps)
+        index = np.where(earlier, before, after)
+        return index, np.abs(self.stamp[index] - stamps) <= PAIRED
 
 
 @dataclass(frozen=True)

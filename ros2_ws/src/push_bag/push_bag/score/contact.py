@@ -19,7 +19,7 @@ LOST_GAP = 0.5e-3  # [m]
 
 @dataclass(frozen=True)
 class Contact:
-    """Gap and contact offset at each instant during tracking at which both poses are known.
+    """Gap and contact offset at each pose of the object with one of the tip near its time.
 
     Attributes:
         stamp: (n,) [ns].
@@ -34,7 +34,7 @@ class Contact:
 
 def contact(run: RunSeries, reference: Reference) -> Contact:
     """Gap and contact offset of a run during tracking."""
-    index, exists = run.pusher.at(run.object.stamp)
+    index, exists = run.pusher.near(run.object.stamp)
     used = exists & during_tracking(run, run.object.stamp)
     used &= np.isfinite(run.object.values).all(axis=1)
     if run.pusher.stamp.size:

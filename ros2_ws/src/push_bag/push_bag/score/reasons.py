@@ -111,7 +111,7 @@ def _of_contact(run: RunSeries) -> str:
         _pose_reason(run, interface.OBJECT_POSE)
         or _heading_reason(run)
         or _pose_reason(run, interface.PUSHER_POSE)
-        or f'no message on {interface.PUSHER_POSE.short_name} has the stamp of an object pose'
+        or f'no message on {interface.PUSHER_POSE.short_name} is within 5 ms of an object pose'
     )
 
 

@@ -5,8 +5,8 @@ import sys
 from collections.abc import Iterator, Sequence
 
 import rclpy
-from push_core.common import Parser, run_command
-from push_mpc.settings import mpc_settings
+from push_core.common import Parser, replaced, run_command
+from push_mpc.settings import MpcSettings, mpc_settings
 from push_node import interface
 from push_node.spin import stop_on_signals
 from push_node.start_ros import init_ros
@@ -31,17 +31,25 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Checks the driver; returns the exit status."""
     parser = Parser('Checks a running robot driver against the contract.', EPILOG)
     parser.add_argument('--move', action='store_true', help='test the motion of the tip as well')
+    parser.add_argument(
+        '--pose-timeout',
+        type=float,
+        metavar='S',
+        default=MpcSettings().pose_timeout,
+        help='pose_timeout that mpc_node will have, longer for slow cameras (default %(default)s)',
+    )
     parser.add_argument('--namespace', default='', help='of the driver')
     return run_command(parser, _check, argv)
 
 
 def _check(arguments: argparse.Namespace) -> int:
+    settings = replaced(mpc_settings('irb120'), {'pose_timeout': arguments.pose_timeout})
     stop_on_signals()
     init_ros()
     try:
         node = Node('check_driver', namespace=arguments.namespace)
         kept = True
-        for point in _points(DriverClient(node), arguments.move):
+        for point in _points(DriverClient(node), settings, arguments.move):
             sys.stdout.write(f'{point}\n')
             sys.stdout.flush()
             kept = kept and point.kept is not False
@@ -50,8 +58,7 @@ def _check(arguments: argparse.Namespace) -> int:
         rclpy.try_shutdown()
 
 
-def _points(driver: DriverClient, move: bool) -> Iterator[Point]:
-    settings = mpc_settings('irb120')
+def _points(driver: DriverClient, settings: MpcSettings, move: bool) -> Iterator[Point]:
     driver.listen(DISCOVERY_TIME)
     driver.forget()
     driver.listen(LISTENING_TIME)

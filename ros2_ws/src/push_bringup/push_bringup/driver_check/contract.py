@@ -8,12 +8,12 @@ import numpy as np
 from push_core.geometry import Array
 from push_mpc.estimate import PoseGate
 from push_mpc.settings import MpcSettings
-from push_node.interface import PUSHER_POSE
+from push_node.interface import OBJECT_POSE
 
 from push_bringup.driver_check.heard_poses import HeardPoses, TipMotion
 
-LONGEST_GAP = 0.02  # [s] that 95 % of the gaps between two poses keep
-RATE_TOLERANCE = 0.1
+PATIENCE = 0.01  # [s] that remains of pose_timeout after 95 % of the gaps between two poses
+FASTEST = 1.1  # poses of the object in a period of the controller, which answers each of them
 STILL = 1e-3  # [m] by which a tip at rest may move, with the noise of its measurement
 DISTANCE_TOLERANCE = 0.15
 LONGEST_DELAY = 0.3  # [s] from command to motion; the predictor reaches no further
@@ -48,14 +48,17 @@ def pose_points(poses: HeardPoses, settings: MpcSettings) -> Iterator[Point]:
         return
     gaps = np.diff(poses.arrival) * 1e-9
     rate = 1e9 * (len(poses) - 1) / float(poses.stamp[-1] - poses.stamp[0] or 1)
-    wanted = 1.0 / settings.period
-    # a tip that is measured more often finds its partner within the tolerance of pairs
-    low, high = (1.0 - RATE_TOLERANCE) * wanted, (1.0 + RATE_TOLERANCE) * wanted
-    kept = low < rate and (rate < high or name == PUSHER_POSE.name)
-    yield Point(f'{name} rate', kept, f'{rate:.1f} Hz of {wanted:.0f} Hz by its stamps')
+    longest = settings.pose_timeout - PATIENCE
+    # each pose of the object is answered, and finds its partner among the last ones of the tip
+    low, high = 1.0 / longest, FASTEST / settings.period if name == OBJECT_POSE.name else np.inf
+    text = f'{rate:.1f} Hz by its stamps, must be {low:.0f} to {high:.0f} Hz'
+    yield Point(f'{name} rate', low < rate < high, text)
     usual = float(np.quantile(gaps, 0.95))
-    text = f'95 % within {1e3 * usual:.1f} ms, longest {1e3 * gaps.max():.1f} ms'
-    yield Point(f'{name} gaps', usual <= LONGEST_GAP, text)
+    text = (
+        f'95 % within {1e3 * usual:.1f} of {1e3 * longest:.0f} ms, '
+        f'longest {1e3 * gaps.max():.1f} ms'
+    )
+    yield Point(f'{name} gaps', usual <= longest, text)
     steps = np.diff(poses.stamp)
     backwards = int(np.count_nonzero(steps <= 0))
     yield Point(f'{name} stamps', not backwards, f'{backwards} of {len(steps)} do not increase')

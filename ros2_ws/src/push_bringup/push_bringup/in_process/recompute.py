@@ -49,7 +49,7 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
         kept = {name.removeprefix('mpc_node.') for name in changes.params}
         models = _models_of(run, parameters, files)
         controller = RecomputingController(parameters, models, run.plan_start, kept)
-    return _compared(run, controller)
+    return _compared(run, controller, round(1e9 * parameters.mpc.poses.pair_tolerance))
 
 
 class RecomputingController(Controller):
@@ -124,9 +124,10 @@ class RecomputingController(Controller):
         return self.hold(tick.now).velocity
 
 
-def _compared(run: RecordedRun, controller: RecomputingController) -> Recomputed:
+def _compared(run: RecordedRun, controller: RecomputingController, paired: int) -> Recomputed:
     stamps, recorded, computed, skipped = [], [], [], 0
-    for tick in tqdm(run.ticks(), total=len(run), unit='tick', desc='recomputing', disable=None):
+    ticks = run.ticks(paired)
+    for tick in tqdm(ticks, total=len(run), unit='tick', desc='recomputing', disable=None):
         velocity = controller.command_at(tick)
         if tick.velocity is None or tick.mode == Mode.IDLE:
             continue

@@ -3,5 +3,6 @@
 from push_mpc.estimate.disturbance import DisturbanceEstimator
 from push_mpc.estimate.pose_gate import PoseGate
 from push_mpc.estimate.predictor import Predictor
+from push_mpc.estimate.tip_history import TipHistory
 
-__all__ = ['DisturbanceEstimator', 'PoseGate', 'Predictor']
+__all__ = ['DisturbanceEstimator', 'PoseGate', 'Predictor', 'TipHistory']

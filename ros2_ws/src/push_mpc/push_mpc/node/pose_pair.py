@@ -1,4 +1,4 @@
-"""Pairs the poses of object and tip that were taken at the same time."""
+"""Pairs each pose of the object with the pose of the tip that was taken nearest to its time."""
 
 import time
 from collections.abc import Callable
@@ -6,13 +6,13 @@ from collections.abc import Callable
 from geometry_msgs.msg import PoseStamped
 from push_node import interface
 from push_node.endpoints import GraphTopic
-from push_node.qos import POSE_SUBSCRIPTION
+from push_node.qos import POSE_HISTORY, POSE_SUBSCRIPTION
 from push_node.stamps import to_nanoseconds, to_seconds
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
 
-from push_mpc.estimate import PoseGate
+from push_mpc.estimate import PoseGate, TipHistory
 
 _NEVER = -(2**62)  # [ns]
 _FRESH = 0.5  # [s]
@@ -21,13 +21,14 @@ _FRESH = 0.5  # [s]
 class PosePair:
     """Subscribes to both poses and calls back once for each new pair that passes the gate.
 
-    In real time two poses pair if their stamps differ by less than a tolerance. In lockstep the
-    stamps are equal, `/clock` is a third message of the pair, and the simulator repeats all three
-    until a command answers them.
+    In real time a pose of the object pairs with the nearest of the last poses of the tip if their
+    stamps differ by no more than a tolerance; where none does yet, it waits for the next ones. In
+    lockstep the stamps are equal, `/clock` is a third message of the pair, and the simulator
+    repeats all three until a command answers them.
 
     Attributes:
-        object_pose: newest pose of the object.
-        tip: newest pose of the tip.
+        object_pose: of the newest accepted pair.
+        tip: of the newest accepted pair.
         problem: why poses that arrive are not used, empty if the last one was used.
     """
 
@@ -53,6 +54,8 @@ class PosePair:
         """
         self.object_pose = PoseStamped()
         self.tip = PoseStamped()
+        self._object = self.object_pose
+        self._tips: TipHistory[PoseStamped] = TipHistory()
         self._gate = gate
         self._on_pair, self._on_refused, self._on_repeat = on_pair, on_refused, on_repeat
         self._node = node
@@ -62,7 +65,7 @@ class PosePair:
         self._accepted = float('-inf')
         self.restart()
         interface.OBJECT_POSE.subscription(node, self._on_object, qos=POSE_SUBSCRIPTION)
-        interface.PUSHER_POSE.subscription(node, self._on_tip, qos=POSE_SUBSCRIPTION)
+        interface.PUSHER_POSE.subscription(node, self._on_tip, qos=POSE_HISTORY)
         if self._lockstep:
             interface.CLOCK.subscription(node, self._on_clock, qos=QoSProfile(depth=1))
 
@@ -71,7 +74,8 @@ class PosePair:
         self.problem = ''
         self._origin: int | None = None
         self._handled = self._handled_clock = self._clock = _NEVER
-        self._object_stamp = self._tip_stamp = _NEVER
+        self._object_stamp = _NEVER
+        self._tips.clear()
         self._arrival = time.monotonic()
 
     def rewind(self) -> None:
@@ -97,15 +101,14 @@ class PosePair:
         """Why no pair is accepted; empty if unknown."""
         if self.problem:
             return self.problem
-        for topic, stamp in (
-            (interface.OBJECT_POSE, self._object_stamp),
-            (interface.PUSHER_POSE, self._tip_stamp),
-        ):
-            if stamp == _NEVER:
-                return self._silence(topic)
+        nearest = self._tips.nearest(self._object_stamp)
+        if self._object_stamp == _NEVER:
+            return self._silence(interface.OBJECT_POSE)
+        if nearest is None:
+            return self._silence(interface.PUSHER_POSE)
         if self._lockstep and self._clock == _NEVER:
             return 'nothing on /clock; this node is in lockstep, is the plant in real time?'
-        apart = abs(self._object_stamp - self._tip_stamp)
+        apart = abs(self._object_stamp - nearest[0])
         if apart > self._tolerance:
             return (
                 f'the stamps of object and tip differ by {1e-6 * apart:.3g} ms, '
@@ -123,13 +126,12 @@ class PosePair:
         return f'nothing arrives on {topic.name}'
 
     def _on_object(self, message: PoseStamped) -> None:
-        self.object_pose = message
+        self._object = message
         self._object_stamp = to_nanoseconds(message.header.stamp)
         self._handle_if_complete()
 
     def _on_tip(self, message: PoseStamped) -> None:
-        self.tip = message
-        self._tip_stamp = to_nanoseconds(message.header.stamp)
+        self._tips.add(to_nanoseconds(message.header.stamp), message)
         self._handle_if_complete()
 
     def _on_clock(self, message: Clock) -> None:
@@ -141,25 +143,27 @@ class PosePair:
 
     def _handle_if_complete(self) -> None:
         stamp = self._object_stamp
-        if abs(stamp - self._tip_stamp) > self._tolerance or stamp == self._handled:
+        nearest = None if stamp == self._handled else self._tips.nearest(stamp)
+        if nearest is None or abs(stamp - nearest[0]) > self._tolerance:
             return
         if self._lockstep and self._clock in (_NEVER, self._handled_clock):
             return
-        self.problem = self._fault(stamp)
+        self.problem = self._fault(stamp, nearest[1])
         if self.problem:
             self._on_refused(self.problem)
             return
+        self.object_pose, self.tip = self._object, nearest[1]
         self._handled, self._handled_clock = stamp, self._clock
         self._origin = stamp if self._origin is None else self._origin
         self._arrival = self._accepted = time.monotonic()
         self._on_pair(stamp, to_seconds(stamp - self._origin), self.now()[1])
 
-    def _fault(self, stamp: int) -> str:
-        """Why the newest pair is refused, empty if it is accepted."""
+    def _fault(self, stamp: int, tip: PoseStamped) -> str:
+        """Why the newest object pose and this of the tip are refused, empty if they are not."""
         now = self.now()[0]
         for topic, message in (
-            (interface.OBJECT_POSE, self.object_pose),
-            (interface.PUSHER_POSE, self.tip),
+            (interface.OBJECT_POSE, self._object),
+            (interface.PUSHER_POSE, tip),
         ):
             age = to_seconds(now - to_nanoseconds(message.header.stamp))
             place, turn = message.pose.position, message.pose.orientation
