@@ -25,6 +25,7 @@ setup(
     extras_require={'test': ['pytest'], 'parquet': ['pyarrow==25.0.1']},
     zip_safe=False,
     entry_points={
+        'push_sim.commanded_tip': ['bag = push_bag.run.commanded_tip:commanded_tip'],
         'console_scripts': [
             'recorder = push_bag.console:recorder',
             'score = push_bag.console:score',

@@ -23,7 +23,7 @@ from push_bag.run.conversions import (
     velocities,
 )
 from push_bag.run.parameter_changes import merged, parameter_changes
-from push_bag.run.series import PAIRED
+from push_bag.run.series import PAIRED, Stamped
 from push_bag.run.topic_table import TopicTable
 
 OBJECT_POSE = interface.OBJECT_POSE.short_name
@@ -125,6 +125,11 @@ class RecordedRun:
             until = bisect_left(self._changed_at, int(self._states.published[row]))
             yield self._tick(row, paired, merged(self._changes[since:until]))
             since = until
+
+    @property
+    def tip_poses(self) -> Stamped:
+        """All poses of the tip (n, 2) [m], by stamp."""
+        return self._rows[TIP_POSE].by_stamp()
 
     def plan_start(self, tick: RecordedTick) -> Array:
         """Pose (3,) at which the plan begins that was in effect at a tick.

@@ -1,6 +1,7 @@
 """Data sets of pushes and their CSV files, and the prediction error on them."""
 
 from push_core.data.checked_pushes import FORCE_HELP, checked_pushes, read_checked_pushes
+from push_core.data.commanded_tip import CommandedTip
 from push_core.data.csv_table import CsvTable, column_names, read_table
 from push_core.data.long_push_csv import holds_long_pushes, read_long_pushes
 from push_core.data.long_pushes import FACE_MARGIN, EndErrors, LongPushes
@@ -31,6 +32,7 @@ __all__ = [
     'P_Y_LIMIT',
     'READABLE',
     'Accuracy',
+    'CommandedTip',
     'CsvTable',
     'EndErrors',
     'LongPushes',

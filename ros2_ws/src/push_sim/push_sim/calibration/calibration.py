@@ -11,10 +11,17 @@ from dataclasses import dataclass
 import numpy as np
 from push_core.common import Map, replaced
 from push_core.data import LongPushes, RobotRun
-from push_core.physics import Slider
+from push_core.physics import ActuatorSettings, Slider
 from tqdm import tqdm
 
-from push_sim.fitting import FITTED, PushesToFit, WorldFit, fit_actuator, fit_world
+from push_sim.fitting import (
+    FITTED,
+    ActuatorFit,
+    PushesToFit,
+    WorldFit,
+    fit_actuator,
+    fit_world,
+)
 from push_sim.measured import MeasuredData, ProgressBar, Replay, split_measurements
 from push_sim.settings import SimSettings
 from push_sim.validation import Validation, compare_with_measurements
@@ -125,7 +132,13 @@ def _world_parameters(fit: WorldFit, start: SimSettings) -> Sequence[FittedParam
 def _actuator_parameters(
     run: RobotRun, start: SimSettings, seed: int
 ) -> Sequence[FittedParameter]:
-    fit, before = fit_actuator(run, start.actuator), start.actuator
+    return actuator_parameters(fit_actuator(run, start.actuator), start.actuator, seed)
+
+
+def actuator_parameters(
+    fit: ActuatorFit, before: ActuatorSettings, seed: int
+) -> Sequence[FittedParameter]:
+    """Dead time and lag with their deviations; `seed` is that of the bootstrap."""
     dead_time, lag = fit.deviation(seed).tolist()
     return (
         _parameter('actuator.dead_time', 's', fit.settings.dead_time, dead_time, before.dead_time),

@@ -9,7 +9,7 @@ from push_core.common import plain_table
 from push_sim.calibration.calibration import FittedParameter, PlantCalibration
 from push_sim.validation import validation_json
 
-_PARAMETER_HEAD = ('parameter', 'fitted', 'deviation', 'before', 'unit')
+PARAMETER_HEAD = ('parameter', 'fitted', 'deviation', 'before', 'unit')
 _REQUIREMENT_HEAD = ('required', 'fitted part', 'the rest', 'at most')
 _RUN_HEAD = ('tip of the fitted run and of the others', 'rms of a coordinate [mm]')
 _PARAMETER_KEYS = ('value', 'deviation', 'unit', 'before')
@@ -29,14 +29,18 @@ def calibration_json(result: PlantCalibration, seed: int, data_hash: str) -> dic
     return {
         'seed': seed,
         'data_sha256': data_hash,
-        'parameters': {
-            each.name: {name: getattr(each, name) for name in _PARAMETER_KEYS}
-            for each in result.parameters
-        },
+        'parameters': parameter_json(result.parameters),
         'stiffness': _stiffness_json(result),
         'bars': _requirements(fitted, kept),
         'fitted': fitted,
         'kept': kept,
+    }
+
+
+def parameter_json(parameters: Sequence[FittedParameter]) -> dict[str, Any]:
+    """The fitted parameters by name."""
+    return {
+        each.name: {name: getattr(each, name) for name in _PARAMETER_KEYS} for each in parameters
     }
 
 
@@ -81,7 +85,7 @@ def calibration_table(figures: Mapping[str, Any]) -> str:
     runs = (each for part in ('fitted', 'kept') for each in figures[part]['robot_runs'])
     blocks = (
         [
-            *plain_table([_PARAMETER_HEAD, *map(_parameter_row, figures['parameters'].items())]),
+            *plain_table([PARAMETER_HEAD, *map(parameter_row, figures['parameters'].items())]),
             *_stiffness_lines(figures['stiffness']),
         ],
         plain_table([_REQUIREMENT_HEAD, *map(_requirement_row, figures['bars'])]),
@@ -90,7 +94,8 @@ def calibration_table(figures: Mapping[str, Any]) -> str:
     return '\n'.join('\n'.join([*lines, '']) for lines in blocks)
 
 
-def _parameter_row(named: tuple[str, Mapping[str, Any]]) -> Sequence[str]:
+def parameter_row(named: tuple[str, Mapping[str, Any]]) -> Sequence[str]:
+    """The cells of one fitted parameter."""
     name, each = named
     value, deviation, before = each['value'], each['deviation'], each['before']
     return name, f'{value:.5f}', f'{deviation:.2g}', f'{before:.5f}', each['unit']

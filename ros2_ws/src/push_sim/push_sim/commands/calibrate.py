@@ -2,8 +2,9 @@
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from push_core.common import (
     Parser,
@@ -18,10 +19,15 @@ from push_core.physics import Slider
 
 from push_sim.calibration import (
     calibrate_plant,
+    calibrate_recorded,
     calibration_json,
     calibration_table,
+    is_bag,
+    read_recording,
+    recorded_table,
     ros_parameter_file,
 )
+from push_sim.calibration.calibration import FittedParameter
 from push_sim.commands.command_checks import check_jobs, check_seed, read_and_tell
 from push_sim.measured import measurement_files
 from push_sim.settings import PROFILES, profile
@@ -30,10 +36,13 @@ EPILOG = """method:
 Friction of the pusher and support radius are fitted to a random half of the short pushes and of
 the long pushes on the face, dead time and lag to the last run by name. The rest is the test set.
 Standard deviations come from a bootstrap. It takes a few minutes on two cores.
+From a recorded run only dead time and lag are fitted, to the commands and the measured tip of its
+last start, in seconds. They include the way of the messages between the machines.
 
 examples:
   ros2 run push_sim calibrate --data ../shared/data
   ros2 run push_sim calibrate --data ../shared/data -o fitted.yaml
+  ros2 run push_sim calibrate --data runs/RUN -o fitted.yaml
   ros2 run push_bringup cell --params fitted.yaml
 """
 
@@ -43,7 +52,13 @@ def parser() -> Parser:
     described = Parser(
         'Fits friction, support radius and lag of the plant to measurements.', EPILOG
     )
-    described.add_argument('--data', type=Path, required=True, metavar='DIR', help='measurements')
+    described.add_argument(
+        '--data',
+        type=Path,
+        required=True,
+        metavar='DIR',
+        help='folder of measurements, or a recorded run',
+    )
     described.add_argument(
         '--seed', type=int, default=0, help='of split and bootstrap (default 0)'
     )
@@ -68,19 +83,45 @@ def work(arguments: argparse.Namespace) -> None:
     check_seed(arguments.seed)
     if arguments.output:
         check_place(arguments.output)
+    if is_bag(arguments.data):
+        _fit_recording(arguments)
+    else:
+        _fit_measurements(arguments)
+
+
+def _fit_recording(arguments: argparse.Namespace) -> None:
+    recorded = read_recording(arguments.data)
+    start = profile(arguments.profile).actuator
+    result = calibrate_recorded(recorded, start, arguments.seed)
+    data_hash = recorded.sha256()
+    _write(arguments, result.parameters, data_hash)
+    _tell(arguments, result.as_json(data_hash), recorded_table)
+
+
+def _fit_measurements(arguments: argparse.Namespace) -> None:
     data = read_and_tell(arguments.data, 'calibrate')
     data_hash = measurement_files(arguments.data).sha256()
     start, seed = profile(arguments.profile), arguments.seed
     with worker_pool(arguments.jobs) as pool:
         result = calibrate_plant(data, start, Slider(), pool.in_order, seed)
+    _write(arguments, result.parameters, data_hash)
+    _tell(arguments, calibration_json(result, seed, data_hash), calibration_table)
+
+
+def _write(
+    arguments: argparse.Namespace, parameters: Sequence[FittedParameter], data_hash: str
+) -> None:
     if arguments.output:
-        content = ros_parameter_file(result.parameters, data_hash)
+        content = ros_parameter_file(parameters, data_hash)
         write_atomically(arguments.output, content.encode())
-    figures = calibration_json(result, seed, data_hash)
-    if arguments.json:
-        sys.stdout.write(json_text(figures))
-    else:
-        sys.stdout.write(calibration_table(figures))
+
+
+def _tell(
+    arguments: argparse.Namespace,
+    figures: dict[str, Any],
+    table: Callable[[dict[str, Any]], str],
+) -> None:
+    sys.stdout.write(json_text(figures) if arguments.json else table(figures))
 
 
 def main(argv: Sequence[str] | None = None) -> int:

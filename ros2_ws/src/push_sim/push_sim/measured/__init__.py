@@ -8,7 +8,12 @@ from push_sim.measured.measured_data import (
 from push_sim.measured.measurement_files import COLUMNS, measurement_files
 from push_sim.measured.replay import ProgressBar, Replay
 from push_sim.measured.run_windows import Windows, cut_windows
-from push_sim.measured.tip_replay import modelled_tip, rms_coordinate, tip_error
+from push_sim.measured.tip_replay import (
+    modelled_tip,
+    recorded_tip_error,
+    rms_coordinate,
+    tip_error,
+)
 
 __all__ = [
     'COLUMNS',
@@ -20,6 +25,7 @@ __all__ = [
     'measurement_files',
     'modelled_tip',
     'read_measured_data',
+    'recorded_tip_error',
     'rms_coordinate',
     'split_measurements',
     'tip_error',

@@ -1,9 +1,9 @@
-"""Runs the commanded tip of a robot run through the actuator model."""
+"""Runs the commanded tip of a robot run or of a recording through the actuator model."""
 
 import math
 
 import numpy as np
-from push_core.data import RobotRun
+from push_core.data import CommandedTip, RobotRun
 from push_core.geometry import Array
 from push_core.physics import Actuator, ActuatorSettings
 
@@ -26,6 +26,34 @@ def modelled_tip(run: RobotRun, settings: ActuatorSettings) -> Array:
 def tip_error(run: RobotRun, settings: ActuatorSettings) -> Array:
     """Modelled minus sensed tip (m, 2) [m], for the rows in which the tip follows commands."""
     return (modelled_tip(run, settings) - run.tip)[: run.following]
+
+
+def recorded_tip_error(recorded: CommandedTip, settings: ActuatorSettings) -> Array:
+    """Modelled minus measured tip (n, 2) [m], each about its mean.
+
+    Where the tip was before the first pose is not known exactly, so a constant offset tells
+    nothing.
+    """
+    actuator = Actuator(settings)
+    travel, reached, now = np.zeros((len(recorded.time), 2)), np.zeros(2), 0.0
+    commands = iter(zip(recorded.command_time.tolist(), recorded.command, strict=True))
+    upcoming = next(commands, None)
+    for row, time in enumerate(recorded.time.tolist()):
+        while upcoming is not None and upcoming[0] <= time:
+            actuator.command(upcoming[1], upcoming[0])
+            upcoming = next(commands, None)
+        reached += _advanced(actuator, now, time - now)
+        travel[row], now = reached, time
+    error = travel - recorded.tip
+    return np.asarray(error - error.mean(axis=0))
+
+
+def _advanced(actuator: Actuator, now: float, duration: float) -> Array:
+    """Travel (2,) [m] over a time [s], in steps of at most 2 ms."""
+    steps = max(1, math.ceil(duration / _PERIOD))
+    step = duration / steps
+    moved = [actuator.advance(now + number * step, step) for number in range(steps)]
+    return np.asarray(step * np.sum(moved, axis=0))
 
 
 def rms_coordinate(error: Array) -> float:
