@@ -18,6 +18,7 @@ from push_core.common import (
 from push_core.physics import Slider
 
 from push_sim.calibration import (
+    FittedParameter,
     calibrate_plant,
     calibrate_recorded,
     calibration_json,
@@ -27,7 +28,6 @@ from push_sim.calibration import (
     recorded_table,
     ros_parameter_file,
 )
-from push_sim.calibration.calibration import FittedParameter
 from push_sim.commands.command_checks import check_jobs, check_seed, read_and_tell
 from push_sim.measured import measurement_files
 from push_sim.settings import PROFILES, profile
