@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from push_bag.commands.score import main
 from push_bag.report.report import REPORT_FILE, SCORE_FILE, write_results
-from push_bag.run.starts import controllers, find_starts
+from push_bag.run.starts import controllers, find_resets, find_starts
 from push_bag.score.score import score_run
 from push_bag.score.score_table import score_table
 from push_msgs.msg import ControllerState
 
 IDLE, ARMED, TRACKING, DONE = 0, 1, 2, 3
-STOPPED, HOLDING = 4, 5
+STOPPED, HOLDING, STOPPING = 4, 5, 7
 LATER = (400, 400, 400)  # a start 4 s after the first one: log time, stamps, count of ticks
 
 
@@ -26,11 +26,16 @@ def stopping(tick):
     return ARMED if tick < 20 else TRACKING if tick < 100 else STOPPED
 
 
-def starts_of(*modes, tick=None):
-    """The (first, last) rows of each start of ticks with these modes."""
+def found_in(modes, tick=None, resets=()):
+    """The starts of ticks with these modes, logged at 0, 1, 2 … ns."""
     modes = np.array(modes)
     tick = np.arange(modes.size) if tick is None else np.array(tick)
-    found = find_starts(np.arange(modes.size), modes, tick)
+    return find_starts(np.arange(modes.size), modes, tick, np.array(resets, np.int64))
+
+
+def starts_of(*modes, tick=None):
+    """The (first, last) rows of each start of ticks with these modes."""
+    found = found_in(modes, tick)
     return [(int(each.ticks[0]), int(each.ticks[-1])) for each in found]
 
 
@@ -41,6 +46,27 @@ def test_a_start_lasts_from_the_first_armed_tick_to_its_outcome():
 
 def test_a_hold_does_not_divide_a_start():
     assert starts_of(ARMED, HOLDING, ARMED, TRACKING, HOLDING, TRACKING, DONE) == [(0, 6)]
+
+
+def test_the_ramp_to_rest_is_of_the_start_and_no_outcome():
+    assert starts_of(ARMED, TRACKING, STOPPING, STOPPING, DONE, DONE, IDLE) == [(0, 5)]
+
+
+def test_a_stop_before_the_first_start_is_not_of_it():
+    assert starts_of(STOPPED, IDLE, ARMED, TRACKING, DONE) == [(2, 4)]
+
+
+def test_poses_from_before_a_reset_or_after_one_are_not_of_the_start():
+    modes = (IDLE, STOPPED, IDLE, ARMED, TRACKING, DONE, DONE, IDLE, ARMED, TRACKING, STOPPED)
+    windows = [(each.begin, each.end) for each in found_in(modes, resets=[1, 2, 6, 10])]
+    assert windows == [(2, 6), (6, 10)]
+    assert [(each.begin, each.end) for each in found_in(modes)] == [(0, 8), (8, 2**63 - 1)]
+
+
+def test_a_reset_is_where_stamps_begin_anew_not_where_two_poses_changed_order():
+    stamps = np.array([10, 20, 30, 40, 60, 50, 70, 10, 10, 20, 30])
+    assert find_resets(np.arange(100, 111), stamps).tolist() == [107]
+    assert find_resets(np.zeros(0, np.int64), np.zeros(0, np.int64)).size == 0
 
 
 def test_a_stop_after_the_end_is_no_outcome():

@@ -24,8 +24,8 @@ def read_run(path: Path) -> RunSeries:
 def read_starts(path: Path) -> list[RunSeries]:
     """Reads each start of the controller in a bag as a run of its own.
 
-    Decodes only the fields that the score needs. A bag with one start, or none, is one run with
-    all that it holds. The message counts of each run are those of the bag.
+    Decodes only the fields that the score needs. A bag without a start is one run with all that
+    it holds. The message counts of each run are those of the bag.
 
     Args:
         path: run folder or MCAP file.

@@ -37,7 +37,7 @@ from push_bag.run.series import (
     RunSeries,
     Stamped,
 )
-from push_bag.run.starts import Start, find_starts
+from push_bag.run.starts import Start, find_resets, find_starts
 from push_bag.run.topic_table import TopicTable
 
 COMMAND = interface.PUSHER_VELOCITY_CMD.short_name
@@ -91,7 +91,7 @@ class RunRows:
             read(record)
 
     def starts(self) -> list[Start]:
-        """Each start of the controller in order; all of the bag where there is one or none.
+        """Each start of the controller in order; all of the bag where there is none.
 
         Raises:
             InputError: a message is not of its topic's type.
@@ -100,8 +100,9 @@ class RunRows:
         mode, tick = (
             rows.values[:, STATE_COLUMNS.index(name)].astype(np.int64) for name in ('mode', 'tick')
         )
-        found = find_starts(self._tables[STATE].logged, mode, tick)
-        return found if len(found) > 1 else [self._whole(found)]
+        poses = self._tables[interface.OBJECT_POSE.short_name]
+        resets = find_resets(poses.logged, poses.in_log_order().stamp)
+        return find_starts(self._tables[STATE].logged, mode, tick, resets) or [self._whole()]
 
     def series(self, reader: BagReader, start: Start, reason: str) -> RunSeries:
         """The series of one start; its message counts are those of the bag.
@@ -150,10 +151,9 @@ class RunRows:
         """The ticks in the order of their log times."""
         return self._tables[STATE].in_log_order()
 
-    def _whole(self, found: list[Start]) -> Start:
+    def _whole(self) -> Start:
         every = np.arange(self._state_rows.stamp.size)
-        own, ran = (found[0].own, found[0].ran) if found else (every, (0, NEVER))
-        return Start(ticks=every, own=own, ran=ran, begin=0, end=NEVER)
+        return Start(ticks=every, own=every, ran=(0, NEVER), begin=0, end=NEVER)
 
     def _traffic(self, reader: BagReader) -> dict[str, Traffic]:
         traffic = counted({name: log for name, (log, _) in self._topics.items()})

@@ -17,6 +17,7 @@ RUNNING = (
     ControllerState.TRACKING,
     ControllerState.HOLDING,
     ControllerState.RECONTACT,
+    ControllerState.STOPPING,
 )
 RETIRED = 200  # ticks of others after which a controller is taken to have ended
 
@@ -43,7 +44,10 @@ class Start:
 
 
 def find_starts(
-    logged: Nanoseconds, mode: NDArray[np.int64], tick: NDArray[np.int64]
+    logged: Nanoseconds,
+    mode: NDArray[np.int64],
+    tick: NDArray[np.int64],
+    resets: Nanoseconds,
 ) -> list[Start]:
     """The starts in order of time.
 
@@ -51,22 +55,50 @@ def find_starts(
         logged: (n,) log times of the controller's ticks [ns], in order.
         mode: (n,) of each tick.
         tick: (n,) the controller's count of its ticks.
+        resets: log times at which the stamps of the plant went back [ns], see `find_resets`.
     """
     whose = controllers(tick)
     every = [np.flatnonzero(whose == each) for each in range(int(whose.max(initial=-1)) + 1)]
     found = [(ran, ticks, own) for own in every for ran, ticks in _runs(own, mode)]
     found.sort(key=lambda each: int(each[0][0]))
-    begins = [int(logged[ran[0]]) for ran, _, _ in found]
+    ran = [(int(logged[rows[0]]), int(logged[rows[-1]])) for rows, _, _ in found]
+    begins = [_begin(number, ran, resets) for number in range(len(ran))]
     return [
         Start(
             ticks=ticks,
             own=own,
-            ran=(begins[number], last := int(logged[ran[-1]])),
-            begin=begins[number] if number else 0,
-            end=next((begin for begin in begins if begin > last), NEVER),
+            ran=(first, last),
+            begin=begin,
+            end=min(
+                next((each for each in begins if each > last), NEVER),
+                next((int(each) for each in resets if each > first), NEVER),
+            ),
         )
-        for number, (ran, ticks, own) in enumerate(found)
+        for (_, ticks, own), (first, last), begin in zip(found, ran, begins, strict=True)
     ]
+
+
+def _begin(number: int, ran: list[tuple[int, int]], resets: Nanoseconds) -> int:
+    """Log time at which the messages of a start begin [ns].
+
+    The plant repeats its stamps after a reset, so those before the last one are not of the start.
+    """
+    first = ran[number][0]
+    before = max((last for _, last in ran[:number] if last < first), default=0)
+    reset = [int(each) for each in resets if before < each <= first]
+    return reset[-1] if reset else first if number else 0
+
+
+def find_resets(logged: Nanoseconds, stamp: Nanoseconds) -> Nanoseconds:
+    """Log times [ns] at which stamps (n,) [ns] began anew; not where two messages changed order.
+
+    Args:
+        logged: (n,) log times of the poses [ns], in order.
+        stamp: (n,) of the poses [ns].
+    """
+    back = np.flatnonzero(stamp[1:] < stamp[:-1]) + 1
+    following = stamp[np.minimum(back + 1, stamp.size - 1)]
+    return logged[back[following < stamp[back - 1]]]
 
 
 def controllers(tick: NDArray[np.int64]) -> Rows:

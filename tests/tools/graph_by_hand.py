@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 import rclpy
-from cell_command import HANG
 from push_msgs.msg import ControllerState
 from push_node import interface
 from push_node.ask import ask
@@ -21,6 +20,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
+HANG = 300.0  # [s]; nothing but a hang takes that long
 MODULES = {
     'sim_node': 'push_sim.node.sim_node',
     'gp_server': 'push_gp.server.gp_server',
