@@ -57,6 +57,10 @@ class Cell:
 
     def reset(self) -> None:
         """Puts the object at the start of the plan."""
+        self.controller.stop('the plant is reset')
+        while self.controller.mode == Mode.STOPPING:
+            self.controller.hold(self.plant.time - Plant.START)
+        self.controller.resume()
         start = self.controller.plan.state[0]
         tip = self.controller.settings.slider.tip_position(start[:3], start[3])
         self.seen = self.plant.reset(start[:3], tip, seed=1)

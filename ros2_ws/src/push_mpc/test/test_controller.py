@@ -12,7 +12,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from push_mpc.loop.controller import Controller, Mode, horizon_stride
 from push_mpc.plan.planning import planned
-from push_mpc.qp.steering import Move
 from push_mpc.settings.node_settings import mpc_settings
 
 SETTINGS = mpc_settings('irb120')
@@ -115,24 +114,8 @@ def test_resume_does_nothing_to_a_controller_that_is_not_stopped(tracking) -> No
 
 def test_at_the_end_of_the_plan_it_slows_down_and_is_done(tracking) -> None:
     controller, last = tracking.controller, tracking.tick().velocity
-    controller._start -= controller.plan.duration
+    controller._reference.start -= controller.plan.duration
     assert_slows_down(tracking, tracking.tick(), last, Mode.DONE)
-
-
-def test_a_solver_without_an_answer_stops(tracking, monkeypatch) -> None:
-    nothing = Move(
-        np.full(2, np.nan),
-        3,
-        7,
-        fault='v_n [m/s] in step 1 of 20 is violated by 0.1',
-        states=np.empty((36, 4)),
-    )
-    last = tracking.tick().velocity
-    monkeypatch.setattr(tracking.controller._steering, 'solve', lambda *_problem: nothing)
-    assert_slows_down(tracking, tracking.tick(), last, Mode.STOPPED)
-    assert tracking.controller.stop_reason == (
-        'the solver found no usable input (status 3): v_n [m/s] in step 1 of 20 is violated by 0.1'
-    )
 
 
 def test_every_command_keeps_the_limits(tracking) -> None:
@@ -212,9 +195,11 @@ def test_whatever_is_seen_a_tick_ends_in_a_finite_command_or_a_stated_stop(
     cell, sightings
 ) -> None:
     controller = cell.controller
+    cell.reset()
     controller.arm()
     for count in range(5):
         controller.step(cell.seen.object_pose, cell.seen.tip_position, 0.01 * count, 0.01 * count)
+    assert controller.mode == Mode.TRACKING
     for count, (pose, tip) in enumerate(sightings):
         now = 0.06 + 0.01 * count
         tick = controller.step(pose, tip, now - 0.005, now)

@@ -11,6 +11,7 @@ from push_core.physics import Slider
 from push_mpc.loop.controller import Controller
 from push_mpc.plan.nominal import Plan
 from push_mpc.plan.planning import planned
+from push_mpc.qp.steering import Move
 from push_mpc.settings.node_settings import MpcSettings, mpc_settings
 from push_mpc.table.surrogate import Table
 
@@ -32,6 +33,9 @@ OTHER = {
     'end_heading': '50',
     'laps': 2,
     'good_poses': 4,
+    'limits.dead_band': 0.01,
+    'recontact.gap': 0.05,
+    'guard.solver_failures': 2,
 }
 NAMES = sorted(
     name
@@ -39,19 +43,31 @@ NAMES = sorted(
     if not name.startswith('poses.')
 )
 CONTROLLERS = ('gp', 'analytical')
-TICKS = 90
+TICKS = 95
+FAILING = range(24, 27)  # ticks in which the solver finds nothing
 
 
 def poses(plan: Plan) -> list[tuple[Array, Array]]:
-    """Object poses (3,) and tips (2,) about a plan: it swings, jumps back, loses touch."""
+    """Object poses (3,) and tips (2,) about a plan: it swings, jumps, loses touch, freezes."""
     slider, found = Slider(), []
     for tick in range(TICKS):
         pose = plan.at(0.01 * max(tick - 14, 0))[0][:3]
         pose = pose + np.array([3e-3, -2e-3, 0.1]) * np.sin(tick / 6.0)
         pose[:2] -= 0.03 * (30 < tick < 45)
-        gap = 0.015 if 50 < tick < 60 else 0.0
+        gap = 0.03 if 50 < tick < 60 else -0.015 * (tick >= 60)
         found.append((pose, slider.tip_position(pose, 0.02 * np.sin(tick / 9.0), gap)))
+    found[72:90] = [found[72]] * 18
     return found
+
+
+def times() -> Array:
+    """Exposures (TICKS,) [s] of the poses; once none comes for 80 ms."""
+    ticks = np.arange(TICKS)
+    return 0.01 * ticks + 0.07 * (ticks >= 20)
+
+
+def no_solution(*_problem: object) -> Move:
+    return Move(np.zeros(2), 3, 1, 'infeasible', np.empty((0, 4)))
 
 
 @pytest.fixture(scope='module')
@@ -73,11 +89,10 @@ def commands(table: Table, settings: MpcSettings) -> Callable[..., Array]:
         made = Controller(named, named.slider, planned(named))
         made.use(made.prepare_model(table, 'table'))
         made.arm()
-        times = 0.01 * np.arange(TICKS)
-        ticks = [
-            made.step(*pair, exposure, exposure + 0.005)
-            for pair, exposure in zip(seen, times, strict=True)
-        ]
+        healthy, ticks = made._steering.solve, []
+        for tick, (pair, exposure) in enumerate(zip(seen, times(), strict=True)):
+            made._steering.solve = no_solution if tick in FAILING else healthy
+            ticks.append(made.step(*pair, exposure, exposure + 0.005))
         return np.array([tick.velocity for tick in ticks])
 
     return answers

@@ -174,7 +174,7 @@ class AnyCommands(RuleBasedStateMachine):
     @precondition(lambda self: self.controller.mode in FOLLOWING)
     @rule()
     def run_out(self) -> None:
-        self.controller._start -= self.controller.plan.duration
+        self.controller._reference.start -= self.controller.plan.duration
         self._check(self.cell.tick())
 
     def _check(self, tick) -> None:
@@ -202,14 +202,8 @@ def test_any_order_of_commands_and_poses_keeps_the_promises(cell) -> None:
     controller = cell.controller
 
     def fresh():
-        controller.stop('next example')
-        for _ in range(60):
-            cell.tick()
-        controller.resume()
         controller._machine.take = type(controller._machine).take.__get__(controller._machine)
-        start = controller.plan.state[0]
-        tip = controller.settings.slider.tip_position(start[:3], start[3])
-        cell.seen = cell.plant.reset(start[:3], tip, seed=1)
+        cell.reset()
         return cell
 
     AnyCommands.make_cell = staticmethod(fresh)

@@ -144,3 +144,27 @@ def test_a_plan_is_moved_only_to_where_tip_and_workspace_permit(
     place = slider.tip_position(object_pose, tip[1], tip[0])
     text = here_fault(slider, settings.limits, plan_of(settings), object_pose, place)
     assert text == '' if not fault else fault in text
+
+
+def test_a_jump_is_refused_and_what_follows_at_the_old_place_is_not(gate) -> None:
+    for count in range(20):
+        away = 0.3 if count % 5 == 4 else 0.0
+        rejection = gate.check('object_pose', 'world', (0.1 + away, 0.0, 0.0), UPRIGHT, 0.01)
+        assert (rejection is not None) == (away > 0.0)
+    assert gate.counts == {'jump': 4}
+
+
+def test_what_stays_at_a_new_place_was_really_moved(gate) -> None:
+    gate.check('object_pose', 'world', (0.0, 0.0, 0.0), UPRIGHT, 0.01)
+    found = [gate.check('object_pose', 'world', (0.2, 0.0, 0.0), UPRIGHT, 0.01) for _ in range(10)]
+    assert [rejection.kind if rejection else '' for rejection in found] == ['jump'] * 4 + [''] * 6
+
+
+def test_motion_at_the_largest_speed_and_a_kick_are_no_jumps(gate) -> None:
+    for place in (0.0, 0.0025, 0.005, 0.035, 0.0375):
+        assert gate.check('object_pose', 'world', (place, 0.0, 0.0), UPRIGHT, 0.01) is None
+
+
+def test_the_poses_of_object_and_tip_are_two_things(gate) -> None:
+    assert gate.check('object_pose', 'world', (0.0, 0.0, 0.0), UPRIGHT, 0.01) is None
+    assert gate.check('pusher_pose', 'world', (0.3, 0.0, 0.0), UPRIGHT, 0.01) is None

@@ -9,8 +9,9 @@ import subprocess
 import sys
 from collections.abc import Callable
 
-from geometry_msgs.msg import PoseStamped, TwistStamped
+from geometry_msgs.msg import Pose, PoseStamped, TwistStamped
 from push_node import interface
+from push_node.endpoints import GraphTopic
 from push_node.stamps import to_nanoseconds, to_stamp
 
 from push_bringup.faults.bed import Bed
@@ -18,11 +19,12 @@ from push_bringup.faults.case import Fault, Outcome
 from push_bringup.faults.relay import Spoil
 from push_bringup.graph import MODULES
 
-POSE_LOSS = 0.5  # [s], parameter pose_loss
 POSE_TIMEOUT = 0.03  # [s], parameter pose_timeout
 WATCHDOG = 0.05  # [s], parameter command_timeout
 RECORDER_SILENCE = 2.6  # [s] from the end of the recorder to the stop
 GRAPH_LOOK = 0.7  # [s] from a second publisher to the stop
+FROZEN = 0.27  # [s], parameter guard.frozen and one tick
+OVERLAPS = 0.35  # [s] until the tip seems to be guard.overlap inside the object
 FOR_GOOD = 3.0  # [s]
 BOTH = ('realtime', 'lockstep')
 Inject = Callable[[Bed, random.Random], float]
@@ -85,6 +87,30 @@ def _tilted(message: PoseStamped, topic: str) -> bool:
         message.pose.orientation.x = math.sin(0.25)
         message.pose.orientation.w *= math.cos(0.25)
         message.pose.orientation.z *= math.cos(0.25)
+    return True
+
+
+def _frozen(*topics: GraphTopic) -> Inject:
+    """The poses of topics repeat, with new stamps."""
+
+    def inject(bed: Bed, chance: random.Random) -> float:
+        first: dict[str, Pose] = {}
+
+        def repeat(message: PoseStamped, topic: str) -> bool:
+            if topic in names:
+                message.pose = first.setdefault(topic, message.pose)
+            return True
+
+        return _spoil(repeat, FOR_GOOD)(bed, chance)
+
+    names = {topic.short_name for topic in topics}
+    return inject
+
+
+def _jumping(message: PoseStamped, topic: str) -> bool:
+    """One pose of the object in nine is 0.3 m away."""
+    if topic == interface.OBJECT_POSE.short_name and message.header.stamp.nanosec % 9 == 0:
+        message.pose.position.y += 0.3
     return True
 
 
@@ -157,7 +183,7 @@ def _kills() -> dict[str, Fault]:
     gone = 'was killed by signal 9'
     unrecorded = {'require_recorder': False}
     outcomes = {
-        'sim_node': (Outcome.STOPS, 'no pose for', POSE_LOSS),
+        'sim_node': (Outcome.STOPS, 'no pose for', 0.0),
         'gp_server': (Outcome.CONTINUES, gone, 0.0),
         'mpc_node': (Outcome.RESTS, gone, WATCHDOG),
         'recorder': (Outcome.STOPS, 'no report from the recorder', RECORDER_SILENCE),
@@ -231,10 +257,35 @@ def _pose_faults() -> dict[str, Fault]:
         'clock_back_1s': (_shifted(-1.0), 'the clock of the cameras steps back 1 s', 'old'),
         'clock_ahead_1s': (_shifted(1.0), 'the clock of the cameras steps ahead 1 s', 'future'),
     }
-    return goes_on | {
-        kind: Fault(text, Outcome.STOPS, _spoil(spoil, FOR_GOOD), reason, POSE_TIMEOUT)
-        for kind, (spoil, text, reason) in stops.items()
+    repeated = {
+        'pose_frozen': Fault(
+            'the cameras repeat one picture',
+            Outcome.STOPS,
+            _frozen(interface.OBJECT_POSE, interface.PUSHER_POSE),
+            'have not changed',
+            FROZEN,
+        ),
+        'pose_frozen_object': Fault(
+            'one camera repeats the pose of the object',
+            Outcome.STOPS,
+            _frozen(interface.OBJECT_POSE),
+            'inside the object',
+            FROZEN + OVERLAPS,
+        ),
+        'pose_jumping': Fault(
+            'one pose of the object in nine is 0.3 m away',
+            Outcome.CONTINUES,
+            _spoil(_jumping, 2.0),
+        ),
     }
+    return (
+        goes_on
+        | repeated
+        | {
+            kind: Fault(text, Outcome.STOPS, _spoil(spoil, FOR_GOOD), reason, POSE_TIMEOUT)
+            for kind, (spoil, text, reason) in stops.items()
+        }
+    )
 
 
 def _solver_faults() -> dict[str, Fault]:

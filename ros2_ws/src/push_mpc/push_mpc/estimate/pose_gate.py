@@ -11,6 +11,7 @@ from push_mpc.settings import PoseGateSettings
 _MARGIN = 0.2  # [m] around the workspace of the tip, for the object and for overshoot
 _NORM_TOLERANCE = 0.01  # of a unit quaternion
 _LARGEST_TILT = math.radians(10.0)
+_BELIEVED = 4  # poses in a row far from the last one, after which something was really moved
 _UNSET = 1e6  # [s]; an older stamp was not set, or is simulated time
 
 
@@ -19,7 +20,7 @@ class Rejection:
     """Why a pose was refused.
 
     Attributes:
-        kind: one word: frame, number, quaternion, tilt, workspace, old or future.
+        kind: one word: frame, number, quaternion, tilt, workspace, old, future or jump.
         reason: for people, with the values.
     """
 
@@ -43,6 +44,8 @@ class PoseGate:
         """
         self.counts: Counter[str] = Counter()
         self._settings = settings
+        self._places: dict[str, tuple[float, float, float]] = {}
+        self._jumps: Counter[str] = Counter()
         self._room = (limits.workspace_x + _MARGIN, limits.workspace_y + _MARGIN)
 
     def check(
@@ -68,12 +71,23 @@ class PoseGate:
             or _rotation_fault(*quaternion)
             or self._place_fault(*position)
             or self._age_fault(age)
+            or self._jump_fault(what, position)
             or ('', '')
         )
         if not kind:
             return None
         self.counts[kind] += 1
         return Rejection(kind, f'{what}: {reason}')
+
+    def _jump_fault(self, what: str, place: tuple[float, float, float]) -> tuple[str, str] | None:
+        """Refuses a place that is too far from the last one, unless it is seen again and again."""
+        before = self._places.get(what, place)
+        away = math.hypot(place[0] - before[0], place[1] - before[1])
+        if away <= self._settings.largest_jump or self._jumps[what] >= _BELIEVED:
+            self._places[what], self._jumps[what] = place, 0
+            return None
+        self._jumps[what] += 1
+        return 'jump', f'it has jumped by {1e3 * away:.0f} mm, which is no motion'
 
     def _frame_fault(self, frame: str) -> tuple[str, str] | None:
         if frame in ('', self._settings.frame):

@@ -22,11 +22,21 @@ _CONTACT_GAP = 5e-4
 class Predictor:
     """Integrates a copy of the actuator and the motion model over the commands under way."""
 
-    def __init__(self, settings: ActuatorSettings, slider: Slider) -> None:
+    def __init__(
+        self, settings: ActuatorSettings, slider: Slider, command_timeout: float = math.inf
+    ) -> None:
+        """Starts at rest.
+
+        Args:
+            settings: of the robot.
+            slider: geometry of slider and tip.
+            command_timeout: time [s] without a command after which the robot's driver brakes.
+        """
         self._slider = slider
+        self._timeout = command_timeout
         self._now = Actuator(settings)
         self._ahead = Actuator(settings)
-        self._time = -math.inf
+        self._time = self._last_sent = -math.inf
         self._horizon = settings.dead_time + settings.lag
 
     @property
@@ -37,11 +47,15 @@ class Predictor:
     def reset(self) -> None:
         """Clears the command history; the robot is at rest."""
         self._now.reset()
-        self._time = -math.inf
+        self._time = self._last_sent = -math.inf
 
     def sent(self, velocity: Array, time: float) -> None:
         """Records a command (2,) [m/s] sent at a time [s]."""
+        if -math.inf < self._last_sent < time - self._timeout:
+            # the driver brakes until the command arrives
+            self._follow(time)
         self._now.command(velocity, time)
+        self._last_sent = time
 
     def predict(
         self,
@@ -81,7 +95,10 @@ class Predictor:
             self._time = exposure
         while exposure - self._time > _TIME_TOLERANCE:
             duration = min(_STEP, exposure - self._time)
-            self._now.advance(self._time, duration)
+            if self._time - self._last_sent > self._timeout:
+                self._now.brake(duration)
+            else:
+                self._now.advance(self._time, duration)
             self._time += duration
 
     def _pushed(

@@ -11,16 +11,19 @@ from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit, slowed
 
 from push_mpc.estimate import DisturbanceEstimator, Predictor
+from push_mpc.loop.guard import Guard
 from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
 from push_mpc.loop.prepared_model import PreparedModel
+from push_mpc.loop.reference_clock import ReferenceClock
 from push_mpc.loop.tick import Tick
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Placement, Plan, consistent_plan
-from push_mpc.qp import PlannedStates, Problem, Steering
+from push_mpc.qp import Move, PlannedStates, Problem, Steering
 from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
 _STILL = np.zeros(2)
+_RAISED = 0  # status of a solver that raised an exception
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
@@ -37,7 +40,8 @@ class Controller:
         self.plan = self.track_plan = plan
         self._machine = ModeMachine()
         self._slider = slider
-        self._predictor = Predictor(settings.actuator, slider)
+        self._predictor = Predictor(settings.actuator, slider, settings.command_timeout)
+        self._guard = Guard(settings, slider)
         self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
         self._steering = _steering(settings, slider)
         # OSQP has a handler of its own while it solves
@@ -51,7 +55,9 @@ class Controller:
         self._placement: Placement | None = None
         self._sent = _STILL
         self._seen = 0
-        self._start = 0.0
+        self._reference = ReferenceClock()
+        self._failures_in_a_row = 0
+        self.solver_failures = 0
 
     @property
     def mode(self) -> Mode:
@@ -104,6 +110,7 @@ class Controller:
         """
         self.settings = settings
         self._steering.change(settings)
+        self._guard.change(settings)
         if self._model is not None and self._along_track is not None:
             sample = self._prepared[1]
             self._prepared = ('', -1)
@@ -126,8 +133,11 @@ class Controller:
         self._place(start)
         self._seen = 0
         self._sent = _STILL
+        self._reference.reset()
+        self._failures_in_a_row = 0
         self._predictor.reset()
         self._disturbance.reset()
+        self._guard.reset()
         self._warm_up()
 
     def _place(self, start: Array | None) -> None:
@@ -144,6 +154,11 @@ class Controller:
     def stop(self, reason: str) -> None:
         """Brings the command to zero; the stop latches until `resume`, and so does its reason."""
         self._machine.take(Event.STOP, reason)
+        self._rest_if_still()
+
+    def fail(self, reason: str) -> None:
+        """Brings the command to zero for a fault of the controller; latches like a stop."""
+        self._machine.take(Event.FAIL, reason)
         self._rest_if_still()
 
     def hold(self, now: float) -> Tick:
@@ -181,6 +196,10 @@ class Controller:
         if self.mode == Mode.ARMED:
             self._count_poses(now)
         self._machine.take(Event.POSE)
+        late = self._reference.is_late(exposure, self.settings.guard.catch_up)
+        if late and self.mode in FOLLOWING:
+            acts_at = now + self._predictor.horizon
+            self._reference.go_on(self.plan, object_pose[:2], exposure, acts_at)
         tick = self._follow(object_pose, tip, exposure, now)
         if self.mode not in FOLLOWING:
             return self._slow_down(tick, now)
@@ -224,15 +243,17 @@ class Controller:
         self._seen += 1
         if self._seen > self.settings.good_poses:
             self._machine.take(Event.READY)
-            self._start = now + self._predictor.horizon
+            self._reference.start = now + self._predictor.horizon
 
     def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
         """Predicts, tracks the reference and limits the command."""
         if self.mode not in FOLLOWING or self._model is None:
             return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
-        reference_time = exposure - self._start
+        reference_time = self._reference.at(exposure)
         if reference_time >= self.plan.duration:
             self._machine.take(Event.END)
+        else:
+            self._watch(object_pose, tip, reference_time)
         self._disturbance.observe(self._model.table, object_pose, tip)
         pose, tip_then, acts_at = object_pose, tip, exposure
         if self.settings.delay_compensation:
@@ -242,13 +263,20 @@ class Controller:
             )
         predicted, gap = self._state(pose, tip_then), self._slider.gap(pose, tip_then)
         self._watch_contact(object_pose, tip, gap)
-        tick = self._move(predicted, gap, acts_at - self._start)
+        tick = self._move(predicted, gap, self._reference.at(acts_at))
         tick.reference_time = reference_time
         tick.state = self._state(object_pose, tip)
         tick.gap = self._slider.gap(object_pose, tip)
         tick.disturbance = self._disturbance.rate
         self._limit(tick, predicted[2], tip)
         return tick
+
+    def _watch(self, object_pose: Array, tip: Array, reference_time: float) -> None:
+        """Stops a run that cannot go on."""
+        reference = self.plan.at(reference_time)[0][:2]
+        fault = self._guard.fault(object_pose, tip, reference, bool(self._sent.any()))
+        if fault:
+            self.stop(fault)
 
     def _watch_contact(self, object_pose: Array, tip: Array, gap: float) -> None:
         """Switches between tracking and recontact; `gap` [m] is the predicted one."""
@@ -287,32 +315,53 @@ class Controller:
         deviation = state - reference
         deviation[2] = wrap_angle(deviation[2])
         self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
-        # a tip that is already past the end of the face must not make the QP infeasible
-        widening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        with self._interrupts_held:
-            move = self._steering.solve(
-                model.linearised,
-                state,
-                deviation,
-                reference_time,
-                widening,
-                self._disturbance.rate,
-                rotation(state[2]).T @ self._sent,
-            )
-        if not move.usable:
-            self.stop(f'the solver found no usable input (status {move.status}): {move.fault}')
+        move = self._solved(model, state, deviation, reference_time)
+        self._count_failure(move)
         return Tick(
             self.mode,
             _STILL,
             predicted=state,
             reference=reference,
-            input=move.velocity,
+            input=move.velocity if move.usable else None,
             nominal_input=nominal,
             solve_ms=1e3 * (clock.perf_counter() - started),
             iterations=move.iterations,
             solver_status=move.status,
-            planned=PlannedStates(model.plan, self._samples, move.states),
+            planned=PlannedStates(model.plan, self._samples, move.states) if move.usable else None,
         )
+
+    def _solved(
+        self, model: PreparedModel, state: Array, deviation: Array, reference_time: float
+    ) -> Move:
+        """The result of the steering; of one that raises, a move that cannot be used."""
+        # a tip that is already past the end of the face must not make the QP infeasible
+        widening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
+        try:
+            with self._interrupts_held:
+                return self._steering.solve(
+                    model.linearised,
+                    state,
+                    deviation,
+                    reference_time,
+                    widening,
+                    self._disturbance.rate,
+                    rotation(state[2]).T @ self._sent,
+                )
+        except Exception as error:  # noqa: BLE001  whatever it is, the tip must come to rest
+            return Move(_STILL, _RAISED, 0, f'it raised {error!r}', np.empty((0, 4)))
+
+    def _count_failure(self, move: Move) -> None:
+        """Fails after too many ticks in a row without a usable input, or in the warm-up."""
+        self._failures_in_a_row = 0 if move.usable else self._failures_in_a_row + 1
+        if move.usable:
+            return
+        self.solver_failures += 1
+        in_a_row = self._failures_in_a_row
+        if self.mode not in FOLLOWING or in_a_row >= self.settings.guard.solver_failures:
+            self.fail(
+                f'the solver found no usable input in {in_a_row} ticks in a row '
+                f'(status {move.status}): {move.fault}'
+            )
 
     def _prepare(self, model: PreparedModel, sample: int) -> None:
         """Loads the QP data of the horizon that starts at a sample, unless it is loaded."""
@@ -324,7 +373,11 @@ class Controller:
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
-        """Turns the input into a world velocity within the safety limits."""
+        """Turns the input into a world velocity within the limits; without one slows down."""
+        if tick.input is None:
+            limits, period = self.settings.limits, self.settings.period
+            tick.velocity, tick.limited = slowed(self._sent, limits, period)
+            return
         turn = rotation(heading)
         desired = turn @ tick.input
         tick.velocity, tick.limited = limit(

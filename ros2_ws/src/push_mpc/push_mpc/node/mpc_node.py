@@ -123,7 +123,7 @@ class MpcNode(Node):  # type: ignore[misc]
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
         arrived = time.perf_counter()
         self._take_model()
-        tick = self._controller.step(*self._measured(), exposure, now)
+        tick = self._computed(exposure, now)
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
@@ -131,6 +131,14 @@ class MpcNode(Node):  # type: ignore[misc]
         self._extrapolations += self._extrapolates(tick)
         self._outputs.step()
         self._controller.prepare_next()
+
+    def _computed(self, exposure: float, now: float) -> Tick:
+        """One tick; of one that raises, the first of a stop."""
+        try:
+            return self._controller.step(*self._measured(), exposure, now)
+        except Exception as error:  # noqa: BLE001  whatever it is, the tip must come to rest
+            self._controller.fail(f'a tick raised {error!r}')
+            return self._controller.hold(now)
 
     def _measured(self) -> tuple[Array, Array]:
         """Newest object pose (3,) and tip position (2,)."""
@@ -307,6 +315,7 @@ class MpcNode(Node):  # type: ignore[misc]
             'table': str(self._table or ''),
             'ticks': str(self._tick_count),
             'outside_training_data': str(self._extrapolations),
+            'solver_failures': str(self._controller.solver_failures),
             **{f'refused_{kind}': str(n) for kind, n in sorted(self._gate.counts.items())},
         }
         self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)

@@ -6,6 +6,7 @@ from push_core.common import nested, setting, validate
 from push_core.physics import ActuatorSettings, SafetyLimits
 
 from push_mpc.settings.controllers import CONTROLLERS
+from push_mpc.settings.guard_settings import GuardSettings
 from push_mpc.settings.recontact import RecontactSettings
 
 
@@ -102,12 +103,17 @@ class ControllerSettings:
         True, 'roll the measured state forward through the commands already sent'
     )
     recontact: RecontactSettings = nested(RecontactSettings())
-    actuator: ActuatorSettings = nested(
-        ActuatorSettings(),
-        {'deceleration_limit': 'the delay prediction has no model of a stop by the driver'},
+    actuator: ActuatorSettings = nested(ActuatorSettings())
+    command_timeout: float = setting(
+        0.05,
+        'time without a command until the driver brakes',
+        unit='s',
+        low=0.001,
+        high=10.0,
     )
     limits: SafetyLimits = nested(SafetyLimits())
     good_poses: int = setting(10, 'poses in a row before anything moves', low=1, high=1000)
+    guard: GuardSettings = nested(GuardSettings())
 
     def __post_init__(self) -> None:
         validate(self)

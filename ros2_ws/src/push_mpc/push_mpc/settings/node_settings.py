@@ -51,7 +51,7 @@ class MpcSettings(ControllerSettings):
         high=1.0,
     )
     pose_loss: float = setting(
-        0.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
+        1.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
     poses: PoseGateSettings = nested(PoseGateSettings())
     require_recorder: bool = setting(True, 'move only while the recorder records')

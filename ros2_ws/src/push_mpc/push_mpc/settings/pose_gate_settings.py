@@ -21,6 +21,10 @@ class PoseGateSettings:
         0.005, 'difference of the stamps of object and tip that still pair', unit='s',
         low=0.0, high=0.1,
     )  # fmt: skip
+    largest_jump: float = setting(
+        0.05, 'distance of two poses in a row from which the second is refused', unit='m',
+        low=0.001, high=10.0,
+    )  # fmt: skip
 
     def __post_init__(self) -> None:
         validate(self)
