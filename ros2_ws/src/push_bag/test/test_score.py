@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,11 @@ from geometry_msgs.msg import PoseStamped
 from push_bag.commands.score import main
 from push_bag.file.bag_writer import BagWriter
 from push_bag.report.report import write_results
+from push_bag.run import read_run
+from push_bag.run.series import STATE_COLUMNS
 from push_bag.score.score import score_run
 from push_bag.score.score_table import score_table
+from push_bag.score.timing import pauses
 from push_core.common.errors import InputError
 from push_core.common.strict_json import json_text
 from push_msgs.msg import ControllerState
@@ -238,3 +242,18 @@ def test_the_cell_gives_the_reason_for_a_controller_that_died(record):
 
 def test_a_run_whose_reference_does_not_move_is_not_completed(record):
     assert score_run(record(path=lambda _time: np.zeros(3)))['completed'] is False
+
+
+def test_pauses_are_told_apart_from_holds(perfect) -> None:
+    run = read_run(perfect)
+    assert pauses(run) == {'count': 0, 'total_s': 0.0, 'longest_s': 0.0}
+    waits, values = run.following.copy(), run.states.values.copy()
+    time = values[:, STATE_COLUMNS.index('reference_time')]
+    first = int(np.flatnonzero(waits)[0])
+    # the reference waits for 0.2 s, later for 0.3 s in two parts of one pause
+    for tick, seconds in ((first + 20, 0.2), (first + 60, 0.1), (first + 61, 0.2)):
+        time[tick:] -= seconds
+    found = pauses(replace(run, states=replace(run.states, values=values)))
+    assert found['count'] == 2
+    assert found['total_s'] == pytest.approx(0.5)
+    assert found['longest_s'] == pytest.approx(0.3)

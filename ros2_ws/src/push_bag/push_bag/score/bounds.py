@@ -33,6 +33,8 @@ COMPARED = (
     'pose_to_command_ms.p99',
     'deadline_misses',
     'holds',
+    'pauses.count',
+    'pauses.total_s',
     'contact_losses',
     'lost',
 )

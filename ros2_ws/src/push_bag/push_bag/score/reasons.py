@@ -157,6 +157,7 @@ REASONS: Mapping[str, Callable[[RunSeries], str]] = {
     'pose_to_command_ms': _of_commands,
     'deadline_misses': _of_misses,
     'holds': _of_ticks,
+    'pauses': _of_ticks,
     'limited': _of_ticks,
 }
 """Figures that a run can lack, and why it does."""

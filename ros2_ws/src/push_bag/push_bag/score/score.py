@@ -24,7 +24,7 @@ from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.laps import per_lap
 from push_bag.score.message_counts import foreign_commands, message_counts
 from push_bag.score.reasons import left_out, other_topics, reasons
-from push_bag.score.timing import timing
+from push_bag.score.timing import pauses, timing
 from push_bag.score.tracking import (
     Tracking,
     during_tracking,
@@ -82,6 +82,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         **_times(run),
         'contact_losses': contact_losses(run, run.reference),
         'holds': holds(run),
+        'pauses': pauses(run),
         'limited': limited(run),
         'messages': message_counts(run),
         'left_out': left_out(run),

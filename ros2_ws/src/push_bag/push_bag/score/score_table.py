@@ -33,6 +33,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('pose to command', _known(score, 'pose_to_command_ms', _milliseconds)),
         ('deadline misses', _known(score, 'deadline_misses', str)),
         ('holds', _known(score, 'holds', str)),
+        ('pauses', _known(score, 'pauses', _pauses)),
         ('contact losses', _known(score, 'contact_losses', str)),
         ('limited ticks', _known(score, 'limited', _counts)),
         ('changed', _changed(score.get('parameter_changes', ()))),
@@ -141,6 +142,12 @@ def _milliseconds(figures: Mapping[str, float | None]) -> str:
 def _figures(figures: Mapping[str, float | None], unit: str) -> str:
     named = (f'{name.replace("_", " ")} {_number(value)}' for name, value in figures.items())
     return '  '.join(named) + f'  {unit}'
+
+
+def _pauses(pauses: Mapping[str, float]) -> str:
+    if not pauses['count']:
+        return '0'
+    return f'{pauses["count"]} of {pauses["total_s"]:.2f} s, longest {pauses["longest_s"]:.2f} s'
 
 
 def _counts(counts: Mapping[str, int]) -> str:

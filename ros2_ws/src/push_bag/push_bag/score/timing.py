@@ -2,6 +2,8 @@
 
 pose to command = publish time of a command - publish time of the pose with the same stamp;
 a deadline miss is a pose during tracking whose command came more than DEADLINE later, or never.
+A pause: ticks in a row during which the reference did not advance with time, because the
+controller had no poses or did not run; see `push_mpc.loop.reference_clock`.
 A run in one process or from a file has no middleware and so no time from pose to command.
 """
 
@@ -14,6 +16,7 @@ from push_bag.run import Floats, RunSeries
 from push_bag.score.tracking import during_tracking
 
 DEADLINE = 0.010  # [s]
+WAITING = 1e-3  # [s] between two ticks by which the reference lags; less is rounding of stamps
 WITHOUT_MIDDLEWARE = ('inprocess', 'robot')  # the fact `mode` of such runs
 
 
@@ -42,6 +45,19 @@ def timing(run: RunSeries) -> LoopTiming:
     late = int(np.count_nonzero(latency > DEADLINE * 1e3))
     solve, tick = (_measured(run.state(name)[ticks]) for name in ('solve_ms', 'tick_ms'))
     return LoopTiming(solve, tick, latency, late + without_command)
+
+
+def pauses(run: RunSeries) -> dict[str, float] | None:
+    """How often the reference waited for the object, and for how long [s]; None without ticks."""
+    if not run.states.stamp.size:
+        return None
+    ticks = run.following & np.isfinite(run.state('reference_time'))
+    passed = 1e-9 * np.diff(run.states.stamp[ticks])
+    waited = passed - np.diff(run.state('reference_time')[ticks])
+    waits = np.concatenate([[False], waited > WAITING, [False]])
+    edges = np.flatnonzero(np.diff(waits.astype(np.int8)))
+    each = [float(waited[first:end].sum()) for first, end in edges.reshape(-1, 2)]
+    return {'count': len(each), 'total_s': sum(each), 'longest_s': max(each, default=0.0)}
 
 
 def _measured(times: Floats) -> Floats:
