@@ -33,6 +33,7 @@ setup(
             'parameters = push_bringup.console:parameters',
             'start = push_bringup.console:start',
         ],
+        'push_bag.qp': ['cell = push_bringup.in_process.qp_of_tick:qp_text'],
         'push_bag.recompute': ['cell = push_bringup.in_process.recompute:recomputed'],
     },
 )

@@ -82,6 +82,8 @@ def test_text_that_is_no_profile_is_refused():
         (['--topics', 'perturbation'], 'no message of a topic perturbation'),
         (['--start', '60', '--loop'], '--start 60 is after the end at 1.'),
         (['--ask', '--recompute'], 'name one of them'),
+        (['--qp', '3', '--recompute'], 'name one of them'),
+        (['--qp', '3', '--loop'], '--loop has no effect'),
         (['--ask', '--controller', 'gp'], 'need --recompute'),
         (['--html', 'page.html'], '--html needs --recompute or --ask'),
         (['--recompute', '--rate', '2'], '--rate has no effect'),

@@ -10,6 +10,7 @@ from push_bag.file.reader import BagReader
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.recorded_ticks import RecordedRun
 from push_bringup.in_process.loop import InProcessCell, nanoseconds, tabulated
+from push_bringup.in_process.qp_of_tick import qp_text
 from push_bringup.in_process.record import InProcessRecord
 from push_bringup.setup.cell_parameters import CellParameters, node_defaults
 from push_core.common.errors import InputError
@@ -87,6 +88,23 @@ def without(source, folder, lost=None, **attached):
 def test_the_same_settings_give_the_same_bits(eventful, capsys):
     assert replay([str(eventful), '--recompute']) == 0
     assert capsys.readouterr().out == '142 of 142 commands are the same, bit for bit\n'
+
+
+def test_the_qps_of_a_tick_are_solved_again(eventful):
+    tick = next(tick for tick in RecordedRun(eventful).ticks() if tick.number == 60)
+    told = qp_text(eventful, 60).splitlines()
+    assert told[0] == f'tick 60: {Mode(tick.mode).name}'
+    assert told[1].startswith('QP 1 of 1: 124 variables')
+    assert ': solved, ' in told[2]
+    violation = float(told[3].split('largest violation ')[1].split()[0])
+    assert violation < 1e-6
+
+
+def test_a_tick_without_a_qp_is_refused(eventful):
+    with pytest.raises(InputError, match='without a QP'):
+        qp_text(eventful, 5)
+    with pytest.raises(InputError, match='has no tick 100000'):
+        qp_text(eventful, 100000)
 
 
 def test_another_weight_gives_other_commands_and_no_failure(eventful, tmp_path, capsys):

@@ -21,6 +21,9 @@ def add_recompute_arguments(parser: Parser) -> None:
     group.add_argument(
         '--ask', action='store_true', help='recompute them with a running mpc_node, in lockstep'
     )
+    group.add_argument(
+        '--qp', type=int, metavar='TICK', help='solve the QPs of this tick again, and say more'
+    )
     group.add_argument('--controller', metavar='NAME', default='', help='use another controller')
     group.add_argument('--model', type=Path, metavar='FILE', help='use another model file')
     group.add_argument(
@@ -46,18 +49,18 @@ def check_recompute_arguments(
     Raises:
         InputError: an option has no effect.
     """
-    if arguments.recompute and arguments.ask:
-        raise InputError('--recompute and --ask: name one of them')
+    if sum((arguments.recompute, arguments.ask, arguments.qp is not None)) > 1:
+        raise InputError('--recompute, --ask and --qp: name one of them')
     if (arguments.controller or arguments.model or arguments.param) and not arguments.recompute:
         raise InputError('--controller, --model and --param need --recompute')
-    if not (arguments.recompute or arguments.ask):
-        if arguments.html:
-            raise InputError('--html needs --recompute or --ask')
+    if arguments.html and not (arguments.recompute or arguments.ask):
+        raise InputError('--html needs --recompute or --ask')
+    if not (arguments.recompute or arguments.ask or arguments.qp is not None):
         return
     given = vars(arguments)
     for name, default in replaying.items():
         if given[name] != default:
-            raise InputError(f'--{name} has no effect on --recompute and --ask')
+            raise InputError(f'--{name} has no effect on --recompute, --ask and --qp')
 
 
 def recompute(arguments: argparse.Namespace) -> int:

@@ -28,6 +28,7 @@ from push_bag.replay import (
     in_order,
     is_command,
     play,
+    solved_again,
     survey,
 )
 
@@ -51,6 +52,7 @@ examples:
   ros2 run push_bag replay runs/RUN --recompute
   ros2 run push_bag replay runs/RUN --ask
   ros2 run push_bag replay runs/RUN --recompute --param weights.contact:=100.0 --html overlay.html
+  ros2 run push_bag replay runs/RUN --qp 1234
 
 Commands are left out unless --with-commands is given. Where a node publishes the poses already, or
 would execute the commands, the replay refuses; --drive lets a plant execute them.
@@ -59,8 +61,12 @@ would execute the commands, the replay refuses; --drive lets a plant execute the
 computed commands with the recorded ones. Status 0 if they are equal bit for bit, 1 if not. With
 --controller, --model or --param it prints the differences, and the status is 0.
 
---ask does the same with a running mpc_node: it starts the node where the recorded one was started,
-sends it each pair of poses with the recorded time, and waits for its command. To start the nodes:
+--qp computes the run again up to a tick (`tick` in controller_state), and solves the QPs of that
+tick once more, as the controller does and to higher accuracy: why did the solver fail there?
+
+--ask does what --recompute does with a running mpc_node: it starts the node where the recorded
+one was started, sends it each pair of poses with the recorded time, and waits for its command. To
+start the nodes:
   ros2 run push_bag info runs/RUN --extract parts
   ros2 run push_gp gp_server --ros-args --params-file parts/params.yaml -p model:=parts/MODEL.npz
   ros2 run push_mpc mpc_node --ros-args --params-file parts/params.yaml -p mode:=lockstep \\
@@ -106,6 +112,9 @@ def _work(arguments: argparse.Namespace) -> int:
         return recompute(arguments)
     if arguments.ask:
         return ask(arguments)
+    if arguments.qp is not None:
+        sys.stdout.write(solved_again(arguments.run, arguments.qp))
+        return 0
     if not arguments.rate > 0:
         raise InputError(f'--rate must be above 0, not {arguments.rate:g}')
     for name in ('start', 'delay'):

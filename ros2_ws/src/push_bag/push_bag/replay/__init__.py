@@ -2,7 +2,7 @@
 
 from push_bag.replay.live_graph import check_graph, is_command
 from push_bag.replay.playback import Publishers, from_time, in_order, play
-from push_bag.replay.recompute import Changes, Recomputed, recomputed
+from push_bag.replay.recompute import Changes, Recomputed, recomputed, solved_again
 from push_bag.replay.survey import Survey, survey
 
 __all__ = [
@@ -16,5 +16,6 @@ __all__ = [
     'is_command',
     'play',
     'recomputed',
+    'solved_again',
     'survey',
 ]

@@ -1,7 +1,8 @@
 """Recorded commands compared with those that a controller computes from the recorded poses.
 
 This package does not depend on controllers. The one that does offers the entry point RECOMPUTE: a
-function from the path of a bag and `Changes` to a `Recomputed` run.
+function from the path of a bag and `Changes` to a `Recomputed` run; and QP, from the path of a bag
+and the number of a tick to a text about its QPs.
 """
 
 from dataclasses import dataclass, field
@@ -16,6 +17,7 @@ from push_core.common import InputError
 from push_bag.run import Floats, Nanoseconds
 
 RECOMPUTE = 'push_bag.recompute'
+QP = 'push_bag.qp'
 
 
 @dataclass(frozen=True)
@@ -96,9 +98,25 @@ def recomputed(run: Path, changes: Changes) -> Recomputed:
     Raises:
         InputError: no controller is installed, or the bag lacks what it needs.
     """
-    engines = list(entry_points(group=RECOMPUTE))
+    result: Recomputed = _engine(RECOMPUTE)(run, changes)
+    return result
+
+
+def solved_again(run: Path, tick: int) -> str:
+    """The QPs of a tick, solved again with the installed controller's solver, in words.
+
+    Args:
+        run: run folder or MCAP file.
+        tick: its number in `controller_state`.
+
+    Raises:
+        InputError: no controller is installed, or the bag lacks what it needs.
+    """
+    return str(_engine(QP)(run, tick))
+
+
+def _engine(group: str) -> Any:
+    engines = list(entry_points(group=group))
     if not engines:
         raise InputError('no controller is installed; build and source push_bringup')
-    compute: Any = engines[0].load()
-    result: Recomputed = compute(run, changes)
-    return result
+    return engines[0].load()

@@ -32,7 +32,7 @@ COMMAND = interface.PUSHER_VELOCITY_CMD.short_name
 STATE = interface.CONTROLLER_STATE.short_name
 PLAN = interface.NOMINAL_TRAJECTORY.short_name
 _CONTROLLER = interface.CONTROLLER_STATE.publishers[0]
-TICK_FIELDS = (*STAMP, 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
+TICK_FIELDS = (*STAMP, 'tick', 'mode', 'exposure', 'now', 'model_id', 'stop_reason')
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class RecordedTick:
     """One tick of the controller.
 
     Attributes:
+        number: count since the start of the node.
         stamp: of the poses that it answered, and of its command [ns].
         published: when its state was published [ns].
         mode: of the controller after the tick.
@@ -53,6 +54,7 @@ class RecordedTick:
         changes: parameters of the controller that changed since the tick before, by name.
     """
 
+    number: int
     stamp: int
     published: int
     mode: int
@@ -85,7 +87,7 @@ class RecordedRun:
             OBJECT_POSE: TopicTable(POSE_FIELDS, 3, planar_poses),
             TIP_POSE: TopicTable(POSE_FIELDS, 2, positions),
             COMMAND: TopicTable(TWIST_FIELDS, 2, velocities),
-            STATE: TopicTable(TICK_FIELDS, 3, self._tick_values),
+            STATE: TopicTable(TICK_FIELDS, 4, self._tick_values),
         }
         self._plans: list[Record] = []
         events: list[Record] = []
@@ -148,12 +150,13 @@ class RecordedRun:
 
     def _tick(self, row: int, paired: int, changes: Mapping[str, Any]) -> RecordedTick:
         stamp, published = int(self._states.stamp[row]), int(self._states.published[row])
-        mode, exposure, now = self._states.values[row].tolist()
+        number, mode, exposure, now = self._states.values[row].tolist()
         values = {name: self._values(name, stamp, published) for name in self._rows}
         if values[TIP_POSE] is None and not math.isnan(exposure):
             values[TIP_POSE] = self._values(TIP_POSE, stamp, published, paired)
         model_id, stop_reason = self._names[row]
         return RecordedTick(
+            number=int(number),
             stamp=stamp,
             published=published,
             mode=int(mode),
@@ -173,7 +176,7 @@ class RecordedRun:
 
     def _tick_values(self, columns: Columns) -> Array:
         self._names += zip(columns['model_id'], columns['stop_reason'], strict=True)
-        return np.column_stack([columns['mode'], columns['exposure'], columns['now']])
+        return np.column_stack([columns[name] for name in ('tick', 'mode', 'exposure', 'now')])
 
 
 class ByStamp:

@@ -117,7 +117,7 @@ def _as_recorded(folder: Path, verdicts: Sequence[Verdict]) -> Iterator[Verdict]
         recorded = {f'no bag: {error}'}
     for verdict in verdicts:
         stops = verdict.case.fault.outcome == Outcome.STOPS
-        kept = verdict.reason in recorded or 'recorder' in verdict.case.kind
+        kept = verdict.reason in recorded or verdict.case.fault.unrecorded
         complaints = ('the reason is not in the bag',) if stops and not kept else ()
         yield replace(verdict, problems=verdict.problems + complaints)
 

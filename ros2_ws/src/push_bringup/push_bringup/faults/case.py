@@ -30,6 +30,7 @@ class Fault:
         parameters: of the cell, by NAME or NODE.NAME.
         sick: nodes of the cell that are replaced by ones that can be made sick.
         breaks: whether the nodes cannot be used again afterwards.
+        unrecorded: whether the bag cannot hold the reason.
     """
 
     text: str
@@ -41,6 +42,7 @@ class Fault:
     parameters: Mapping[str, object] = field(default_factory=dict)
     sick: tuple[str, ...] = ()
     breaks: bool = False
+    unrecorded: bool = False
 
 
 @dataclass(frozen=True)

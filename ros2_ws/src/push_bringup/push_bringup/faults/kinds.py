@@ -24,6 +24,7 @@ WATCHDOG = 0.05  # [s], parameter command_timeout
 RECORDER_SILENCE = 2.6  # [s] from the end of the recorder to the stop
 GRAPH_LOOK = 0.7  # [s] from a second publisher to the stop
 FROZEN = 0.27  # [s], parameter guard.frozen and one tick
+FAST = 0.06  # [s] longer to rest from the largest speed: the lag is exponential
 OVERLAPS = 0.35  # [s] until the tip seems to be guard.overlap inside the object
 FOR_GOOD = 3.0  # [s]
 BOTH = ('realtime', 'lockstep')
@@ -196,6 +197,7 @@ def _kills() -> dict[str, Fault]:
             reason,
             detection,
             breaks=True,
+            unrecorded=name == 'recorder',
         )
         for name, (outcome, reason, detection) in outcomes.items()
     }
@@ -235,6 +237,7 @@ def _freezes() -> dict[str, Fault]:
         'no report from the recorder',
         RECORDER_SILENCE,
         breaks=True,
+        unrecorded=True,
     )
     return faults
 
@@ -263,14 +266,14 @@ def _pose_faults() -> dict[str, Fault]:
             Outcome.STOPS,
             _frozen(interface.OBJECT_POSE, interface.PUSHER_POSE),
             'have not changed',
-            FROZEN,
+            FROZEN + FAST,
         ),
         'pose_frozen_object': Fault(
             'one camera repeats the pose of the object',
             Outcome.STOPS,
             _frozen(interface.OBJECT_POSE),
             'inside the object',
-            FROZEN + OVERLAPS,
+            FROZEN + OVERLAPS + FAST,
         ),
         'pose_jumping': Fault(
             'one pose of the object in nine is 0.3 m away',
@@ -331,6 +334,7 @@ def _others() -> dict[str, Fault]:
             'the recorder does not record',
             RECORDER_SILENCE,
             breaks=True,
+            unrecorded=True,
         ),
         'cores_hogged': Fault('two processes on each core for 2 s', Outcome.CONTINUES, _hogged),
         'commands_lost': Fault(

@@ -42,6 +42,16 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
     Raises:
         InputError: the bag lacks parameters, model or track, or a change is not possible.
     """
+    run, controller, paired = opened(path, changes)
+    return _compared(run, controller, paired)
+
+
+def opened(path: Path, changes: Changes) -> 'tuple[RecordedRun, RecomputingController, int]':
+    """A run, its controller, and the difference of stamps [ns] that pairs two poses.
+
+    Raises:
+        InputError: the bag lacks parameters, model or track, or a change is not possible.
+    """
     run = RecordedRun(path)
     with tempfile.TemporaryDirectory(prefix='push_recompute_') as scratch:
         files = _unpacked(run, Path(scratch))
@@ -49,7 +59,7 @@ def recomputed(path: Path, changes: Changes) -> Recomputed:
         kept = {name.removeprefix('mpc_node.') for name in changes.params}
         models = _models_of(run, parameters, files)
         controller = RecomputingController(parameters, models, run.plan_start, kept)
-    return _compared(run, controller, round(1e9 * parameters.mpc.poses.pair_tolerance))
+    return run, controller, round(1e9 * parameters.mpc.poses.pair_tolerance)
 
 
 class RecomputingController(Controller):
@@ -80,15 +90,20 @@ class RecomputingController(Controller):
 
     def command_at(self, tick: RecordedTick) -> Array | None:
         """The command at a recorded tick (2,) [m/s]; None where a pose is missing."""
+        velocity = self.answer(tick)
+        if velocity is not None and not math.isnan(tick.exposure):
+            self.prepare_next()
+        return velocity
+
+    def answer(self, tick: RecordedTick) -> Array | None:
+        """The same, without preparing the next tick: `problems` are those of this one."""
         self._prepare_for(tick)
         self._recorded_command = tick.velocity
         if math.isnan(tick.exposure):
             return self._without_poses(tick)
         if tick.object_pose is None or tick.tip is None:
             return None
-        velocity = self.step(tick.object_pose, tick.tip, tick.exposure, tick.now).velocity
-        self.prepare_next()
-        return velocity
+        return self.step(tick.object_pose, tick.tip, tick.exposure, tick.now).velocity
 
     def _remember(self, velocity: Array, now: float) -> None:
         super()._remember(
