@@ -78,13 +78,13 @@ def test_the_workspace_holds_too() -> None:
 
 
 def test_cases_are_those_of_the_modes_in_which_the_fault_can_happen() -> None:
-    chosen = cases(['stop', 'solver_raises'], ['realtime', 'lockstep'], 2)
+    chosen = cases(['stop', 'solver_raises'], ['realtime', 'lockstep'], range(2))
     assert len(chosen) == 2 + 4
     assert len({(case.kind, case.mode, case.seed) for case in chosen}) == len(chosen)
 
 
 def test_the_summary_names_what_is_not_as_expected() -> None:
-    case = cases(['stop'], ['realtime'], 1)[0]
+    case = cases(['stop'], ['realtime'], [0])[0]
     good = Verdict(case, 1.0, 0.2, 0.08, 'stopped on request', ())
     bad = Verdict(case, 1.0, np.nan, 0.08, '', ('it did not stop',), attempts=3)
     told = summary([good, bad])

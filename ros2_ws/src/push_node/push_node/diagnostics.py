@@ -1,11 +1,36 @@
 """The status of a node on /diagnostics."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import TypeAlias
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.node import Node
 
 from push_node import interface
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+Finding: TypeAlias = tuple[bytes, str]
+"""Level and message."""
+
+
+def worst(findings: Iterable[Finding], otherwise: str) -> Finding:
+    """The highest level among findings, with all messages of that level; else OK.
+
+    Args:
+        findings: those with an empty message do not count.
+        otherwise: message if there is none.
+    """
+    found = [(level, message) for level, message in findings if message]
+    highest = max((level for level, _ in found), default=OK)
+    messages = [message for level, message in found if level == highest]
+    return highest, '; '.join(messages) or otherwise
+
+
+def above(value: float, warn: float, error: float, message: str) -> Finding:
+    """A finding that the value exceeds a threshold, with an empty message if it does not."""
+    if value > error:
+        return ERROR, message
+    return WARN, message if value > warn else ''
 
 
 def status_name(node_name: str, name: str) -> str:
@@ -21,10 +46,10 @@ class Reporter:
         self._name = status_name(node.get_fully_qualified_name(), name)
         self._publisher = interface.DIAGNOSTICS.publisher(node)
 
-    def report(self, ok: bool, message: str, values: Mapping[str, str]) -> None:
+    def report(self, level: bytes, message: str, values: Mapping[str, str]) -> None:
         """Publishes the status; call it once a second and on every change."""
         status = DiagnosticStatus(
-            level=DiagnosticStatus.OK if ok else DiagnosticStatus.ERROR,
+            level=level,
             name=self._name,
             message=message,
             hardware_id=self._node.get_namespace(),

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from push_core.common import InputError, RunError, flatten
-from push_node.diagnostics import Reporter
+from push_node.diagnostics import ERROR, WARN, Reporter, worst
 from push_node.graph import full_name
 from push_node.interface import TOPICS
 from push_node.parameters import declared
@@ -53,7 +53,7 @@ class Recorder(Node):  # type: ignore[misc]
         self._recording = Recording(self, self._writer, {*offers, *others}, offers)
         self._inputs = self._unattached_inputs(settings)
         self._reporter = Reporter(self, 'recording')
-        self._was_complete = False
+        self._was_complete, self._lost_warn = False, settings.lost_warn
         self._failure: RunError | None = None
         self._start_timers(settings)
 
@@ -121,11 +121,15 @@ class Recorder(Node):  # type: ignore[misc]
 
     def _report(self) -> None:
         if self._failure is not None:
-            self._reporter.report(False, str(self._failure), self._counts())
+            self._reporter.report(ERROR, str(self._failure), self._counts())
             return
-        missing = self._missing()
-        message = f'no publisher of {", ".join(sorted(missing))}' if missing else 'recording'
-        self._reporter.report(not missing, message, self._counts())
+        missing = ', '.join(sorted(self._missing()))
+        lost = sum(seen.lost for seen in self._recording.traffic.values())
+        findings = [
+            (ERROR, f'no publisher of {missing}' if missing else ''),
+            (WARN, f'{lost} messages lost' if lost >= self._lost_warn else ''),
+        ]
+        self._reporter.report(*worst(findings, 'recording'), self._counts())
 
     def _missing(self) -> set[str]:
         return self._core - self._recording.traffic.keys()

@@ -27,6 +27,9 @@ class RecorderSettings:
         low=0.05,
         high=10.0,
     )
+    lost_warn: int = setting(
+        1, 'lost messages from which /diagnostics has a warning', low=1, high=10**9
+    )
 
     def __post_init__(self) -> None:
         validate(self)

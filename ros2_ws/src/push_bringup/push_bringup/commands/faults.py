@@ -47,6 +47,9 @@ def parser() -> Parser:
         '--mode', nargs='+', choices=MODES, default=list(MODES), help='of the cells'
     )
     described.add_argument('--seeds', type=int, default=1, help='cases of each kind (default 1)')
+    described.add_argument(
+        '--first-seed', type=int, default=0, help='the first of the seeds (default 0)'
+    )
     described.add_argument('--json', action='store_true', help='print one JSON object instead')
     described.add_argument('--html', type=Path, help='also write the table as a page')
     return described
@@ -61,7 +64,8 @@ def work(arguments: argparse.Namespace) -> int:
     if arguments.seeds < 1:
         raise InputError(f'--seeds is {arguments.seeds}, must be positive')
     check_ros_environment()
-    chosen = cases(arguments.only, arguments.mode, arguments.seeds)
+    seeds = range(arguments.first_seed, arguments.first_seed + arguments.seeds)
+    chosen = cases(arguments.only, arguments.mode, seeds)
     stop_on_signals()
     init_ros()
     try:

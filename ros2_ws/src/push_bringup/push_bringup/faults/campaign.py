@@ -3,7 +3,7 @@
 import random
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,14 +22,14 @@ _REST = 0.6  # [s] of observation after a stop
 _LONGEST = 6.0  # [s] to wait for a stop
 
 
-def cases(kinds: Sequence[str], modes: Sequence[str], seeds: int) -> list[Case]:
+def cases(kinds: Sequence[str], modes: Sequence[str], seeds: Iterable[int]) -> list[Case]:
     """The cases of kinds, those with the same cell beside each other."""
     made = [
         Case(kind, KINDS[kind], mode, seed)
         for kind in kinds
         for mode in modes
         if mode in KINDS[kind].modes
-        for seed in range(seeds)
+        for seed in seeds
     ]
     return sorted(made, key=lambda case: (case.fault.breaks, str(case.cell)))
 

@@ -96,8 +96,10 @@ def _progress_problems(seen: Seen, healed: int) -> list[str]:
     if stopped:
         return ['it stopped']
     after = [state for state in seen.states if state[0] > healed]
-    if not after or after[-1][1] not in (Mode.TRACKING, Mode.DONE):
+    last = [state for state in after if state[0] > after[-1][0] - 1e9 * _LAST]
+    # a host that is busy makes single holds
+    tracking = [state[3] for state in last if state[1] in (Mode.TRACKING, Mode.DONE)]
+    if not last or len(tracking) < 0.5 * len(last):
         return ['it does not track at the end']
-    last = [state[3] for state in after if state[0] > after[-1][0] - 1e9 * _LAST]
-    distance = float(np.nanmean(last))
+    distance = float(np.nanmean(tracking))
     return [f'{1e3 * distance:.1f} mm from the reference'] if distance > FAR else []

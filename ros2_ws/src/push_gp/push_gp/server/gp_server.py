@@ -9,7 +9,7 @@ from push_core.common import PushError
 from push_core.data import PushSet
 from push_msgs.srv import AddPushes, GetModel, Predict
 from push_node import interface
-from push_node.diagnostics import Reporter
+from push_node.diagnostics import OK, Reporter
 from push_node.parameters import declared
 from push_node.spin import run_node
 from rclpy.node import Node
@@ -121,7 +121,7 @@ class GpServer(Node):  # type: ignore[misc]
             'answered': str(self._answered),
             'refused': str(self._refused),
         }
-        self._reporter.report(True, 'ready', values)
+        self._reporter.report(OK, 'ready', values)
 
 
 def _file_of(model: str) -> tuple[str, bytes]:

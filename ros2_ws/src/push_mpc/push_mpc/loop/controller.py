@@ -70,6 +70,11 @@ class Controller:
         return self._machine.reason
 
     @property
+    def frozen_poses(self) -> int:
+        """Ticks with the same poses as before while the tip was commanded, since the start."""
+        return self._guard.frozen
+
+    @property
     def model_id(self) -> str:
         """Id of the model in use, empty without one."""
         return self._model.model_id if self._model else ''

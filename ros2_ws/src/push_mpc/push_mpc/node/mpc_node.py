@@ -9,7 +9,7 @@ from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
 from push_msgs.msg import ControllerState
 from push_node import interface
-from push_node.diagnostics import Reporter
+from push_node.diagnostics import ERROR, Reporter, worst
 from push_node.parameters import declared, on_change, override
 from push_node.publishers import PUBLISHERS
 from push_node.realtime import enter_realtime
@@ -24,6 +24,7 @@ from push_mpc.loop import MOVING, Controller, Mode, Tick, here_fault, start_faul
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.loop_health import LoopHealth, stop_finding
 from push_mpc.node.mode_log import ModeLog
 from push_mpc.node.model_client import ModelClient
 from push_mpc.node.pose_pair import PosePair
@@ -38,6 +39,7 @@ FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
 GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
 _ACTIVE = (*MOVING, Mode.STOPPING)
+ON_REQUEST = 'stopped on request'
 _NOT_AT_REST = 'the tip is not at rest yet'
 
 
@@ -70,6 +72,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._recorder = RecorderWatch(self)
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
+        self._health, self._reported = LoopHealth(self._settings.period), time.monotonic()
         self._outputs = PUBLISHERS[self._settings.mode](self)
         self._commands = self._outputs.of(interface.PUSHER_VELOCITY_CMD)
         self._states = self._outputs.of(interface.CONTROLLER_STATE)
@@ -175,6 +178,7 @@ class MpcNode(Node):  # type: ignore[misc]
         conversions.set_stamp(self._state, stamp)
         conversions.fill_state(self._state, tick)
         self._mode_log.note(tick.mode, self._controller.stop_reason)
+        self._health.note(tick, tick_ms)
         self._state.tick = self._tick_count
         self._state.tick_ms = tick_ms
         self._state.stop_reason = self._controller.stop_reason
@@ -261,7 +265,7 @@ class MpcNode(Node):  # type: ignore[misc]
         return self._settings.start_from == 'here'
 
     def _on_stop(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
-        self._halt('stopped on request')
+        self._halt(ON_REQUEST)
         answer.success = True
         answer.message = f'stopped; {interface.RESUME.name} releases the stop'
         return answer
@@ -309,16 +313,29 @@ class MpcNode(Node):  # type: ignore[misc]
         return self._model.problem or poses or self._graph.warning()
 
     def _report(self) -> None:
-        reason = self._controller.stop_reason or self._warning()
-        values = {
+        now = time.monotonic()
+        seconds, self._reported = now - self._reported, now
+        findings, values = self._health.take(
+            math.inf if self._lockstep else seconds, self._totals(), self._settings.diagnostics
+        )
+        reason = self._controller.stop_reason
+        findings.append(stop_finding(reason, ON_REQUEST) if reason else (ERROR, self._warning()))
+        values |= {
+            'mode': self._controller.mode.name.lower(),
             'model': self._controller.model_id,
             'table': str(self._table or ''),
             'ticks': str(self._tick_count),
             'outside_training_data': str(self._extrapolations),
-            'solver_failures': str(self._controller.solver_failures),
-            **{f'refused_{kind}': str(n) for kind, n in sorted(self._gate.counts.items())},
+            'pose_age_ms': f'{1e3 * self._poses.age:.0f}',
         }
-        self._reporter.report(not reason, reason or self._controller.mode.name.lower(), values)
+        self._reporter.report(*worst(findings, self._controller.mode.name.lower()), values)
+
+    def _totals(self) -> dict[str, int]:
+        return {
+            'solver_failures': self._controller.solver_failures,
+            'refused_frozen': self._controller.frozen_poses,
+            **{f'refused_{kind}': count for kind, count in self._gate.counts.items()},
+        }
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -24,7 +24,7 @@ class RecorderWatch:
 
     @property
     def is_recording(self) -> bool:
-        """Whether the recorder reported OK within FRESH."""
+        """Whether the recorder reported no error within FRESH."""
         return time.monotonic() - self._last_good < FRESH
 
     @property
@@ -51,6 +51,6 @@ class RecorderWatch:
     def _on_diagnostics(self, array: DiagnosticArray) -> None:
         for status in array.status:
             if status.name == self._name:
-                good = status.level == DiagnosticStatus.OK
+                good = status.level != DiagnosticStatus.ERROR
                 self._last_good = time.monotonic() if good else -FRESH
                 self._message = '' if good else status.message

@@ -2,6 +2,7 @@
 
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
+from push_mpc.settings.diagnostics_settings import DiagnosticsSettings
 from push_mpc.settings.guard_settings import GuardSettings
 from push_mpc.settings.node_settings import MpcSettings, is_changeable, mpc_settings
 from push_mpc.settings.pose_gate_settings import PoseGateSettings
@@ -12,6 +13,7 @@ __all__ = [
     'CONTROLLERS',
     'PRESETS',
     'ControllerSettings',
+    'DiagnosticsSettings',
     'GuardSettings',
     'MpcSettings',
     'PoseGateSettings',

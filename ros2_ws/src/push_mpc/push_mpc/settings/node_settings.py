@@ -6,6 +6,7 @@ from push_core.common import nested, setting, validate
 from push_core.physics import ACTUATORS, Slider
 
 from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.diagnostics_settings import DiagnosticsSettings
 from push_mpc.settings.pose_gate_settings import PoseGateSettings
 from push_mpc.settings.presets import PRESETS, with_preset
 
@@ -54,6 +55,7 @@ class MpcSettings(ControllerSettings):
         1.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
     poses: PoseGateSettings = nested(PoseGateSettings())
+    diagnostics: DiagnosticsSettings = nested(DiagnosticsSettings())
     require_recorder: bool = setting(True, 'move only while the recorder records')
     slider: Slider = nested(Slider())
 
@@ -64,7 +66,8 @@ class MpcSettings(ControllerSettings):
 _CHANGEABLE = (
     *('weights.', 'force_weights.', 'normal_speed_limit', 'tangential_speed_limit'),
     *('limits.speed', 'limits.acceleration', 'limits.deceleration'),
-    *('recontact.', 'disturbance_length', 'pose_timeout', 'pose_loss', 'require_recorder'),
+    *('recontact.', 'guard.', 'disturbance_length', 'pose_timeout', 'pose_loss'),
+    *('require_recorder', 'diagnostics.'),
 )
 
 

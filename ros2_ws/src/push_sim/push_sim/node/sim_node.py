@@ -8,7 +8,7 @@ from push_core.common import InputError, PushError
 from push_msgs.msg import NominalTrajectory
 from push_msgs.srv import Perturb, Reset
 from push_node import interface
-from push_node.diagnostics import Reporter
+from push_node.diagnostics import ERROR, WARN, Reporter, worst
 from push_node.graph import second_source
 from push_node.parameters import declared, on_change, override
 from push_node.publishers import PUBLISHERS, GraphPublishers
@@ -53,6 +53,7 @@ class SimNode(Node):  # type: ignore[misc]
         self._plant = Plant(self._settings, self._slider)
         self._plan: NominalTrajectory | None = None
         self._conflict = ''
+        self._late_told = 0
         self._outputs = PUBLISHERS[self._settings.mode](self)
         self._make_publishers()
         self._pace = _PACES[self._settings.mode](self, self._plant, self._outputs, self._publish)
@@ -178,8 +179,10 @@ class SimNode(Node):  # type: ignore[misc]
             'watchdog': 'holds' if self._plant.braking else 'fed',
             **{f'limited_{name}': str(n) for name, n in sorted(self._plant.limited.items())},
         }
-        message = f'{self._conflict}; the driver brakes' if self._conflict else 'running'
-        self._reporter.report(not self._conflict, message, values)
+        conflict = f'{self._conflict}; the driver brakes' if self._conflict else ''
+        late, self._late_told = self._pace.late_frames - self._late_told, self._pace.late_frames
+        dropped = f'{late} exposures dropped: the process ran too late' if late else ''
+        self._reporter.report(*worst([(ERROR, conflict), (WARN, dropped)], 'running'), values)
 
 
 def _perturbation(request: Perturb.Request) -> Perturbation:
