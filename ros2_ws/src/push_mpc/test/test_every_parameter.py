@@ -40,7 +40,7 @@ OTHER = {
 NAMES = sorted(
     name
     for name in set(flatten(USUAL)) - OF_THE_NODE - {'controller'}
-    if not name.startswith(('poses.', 'diagnostics.'))
+    if not name.startswith(('poses.', 'diagnostics.', 'realtime.'))
 )
 CONTROLLERS = ('gp', 'analytical')
 TICKS = 95

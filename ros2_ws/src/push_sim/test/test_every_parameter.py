@@ -33,7 +33,9 @@ OTHER = {
     'perturbation.kind': ('normal', {}),
     'perturbation.magnitude': (0.1, {}),
 }
-NAMES = sorted(set(flatten(SETTINGS)) - OF_THE_NODE)
+NAMES = sorted(
+    name for name in set(flatten(SETTINGS)) - OF_THE_NODE if not name.startswith('realtime.')
+)
 
 
 def motion(settings: NodeSettings) -> Array:

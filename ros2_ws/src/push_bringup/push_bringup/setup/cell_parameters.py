@@ -56,6 +56,7 @@ class CellParameters:
             for name, value in values.items()
             if value != flatten(defaults[node])[name][0]
             and name not in _FACTS
+            and not name.startswith('realtime.')
             and node != 'recorder'
         )
 

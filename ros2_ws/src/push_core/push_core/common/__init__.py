@@ -10,6 +10,7 @@ from push_core.common.interrupts import (
     interrupt_is_held,
     take_held_interrupt,
 )
+from push_core.common.realtime_settings import RealtimeSettings
 from push_core.common.settings import (
     Described,
     flatten,
@@ -33,6 +34,7 @@ __all__ = [
     'Map',
     'Parser',
     'PushError',
+    'RealtimeSettings',
     'RunError',
     'Workers',
     'check_place',

@@ -12,7 +12,7 @@ from push_node import interface
 from push_node.diagnostics import ERROR, Reporter, worst
 from push_node.parameters import declared, on_change, override
 from push_node.publishers import PUBLISHERS
-from push_node.realtime import enter_realtime
+from push_node.realtime import Scheduling, enter_realtime
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
@@ -63,7 +63,7 @@ class MpcNode(Node):  # type: ignore[misc]
         self._mode_log = ModeLog()
         self._tick_count = self._extrapolations = 0
         self._table: Tabulated | None = None
-        self._scheduling = ''
+        self._scheduling: Scheduling | None = None
         self._command, self._state = TwistStamped(), ControllerState()
         self._command.header.frame_id = self._state.header.frame_id = 'world'
         self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
@@ -247,10 +247,19 @@ class MpcNode(Node):  # type: ignore[misc]
         answer.message = self._obstacle()
         answer.success = not answer.message
         if answer.success:
-            self._scheduling = self._scheduling or enter_realtime(self._settings.mode)
+            scheduling = self._enter_realtime()
             self._arm()
-            answer.message = f'armed; {self._scheduling}'
+            answer.message = f'armed; {scheduling.text}'
         return answer
+
+    def _enter_realtime(self) -> Scheduling:
+        """Asks the kernel once, when all that the loop needs is there; tells what it refused."""
+        if self._scheduling is None:
+            settings = self._settings
+            self._scheduling = enter_realtime(settings.mode, settings.realtime)
+            if self._scheduling.warning:
+                self.get_logger().warning(self._scheduling.warning)
+        return self._scheduling
 
     def _arm(self) -> None:
         if self._starts_here:

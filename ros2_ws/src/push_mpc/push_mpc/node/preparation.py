@@ -6,13 +6,13 @@ real-time priority, and so use up the time that the kernel grants to real-time t
 """
 
 import contextlib
-import os
 import pickle
 import subprocess
 import sys
 from typing import IO
 
 from push_core.common import PushError, RunError
+from push_node.realtime import leave_realtime
 
 from push_mpc.loop import Controller, PreparedModel
 from push_mpc.plan import Plan
@@ -83,8 +83,8 @@ def _send(stream: IO[bytes], value: object) -> None:
 
 def main() -> None:
     """Prepares a model for each request on standard input, until that closes."""
-    # the process inherits the node's real-time priority
-    os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+    # the process inherits the node's real-time priority and core
+    leave_realtime()
     with contextlib.suppress(EOFError, BrokenPipeError):
         while True:
             _send(sys.stdout.buffer, _prepared(*pickle.load(sys.stdin.buffer)))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from push_core.common import nested, setting, validate
+from push_core.common import RealtimeSettings, nested, setting, validate
 from push_core.physics import ACTUATORS, Slider
 
 from push_mpc.settings.controller_settings import ControllerSettings
@@ -57,6 +57,7 @@ class MpcSettings(ControllerSettings):
     poses: PoseGateSettings = nested(PoseGateSettings())
     diagnostics: DiagnosticsSettings = nested(DiagnosticsSettings())
     require_recorder: bool = setting(True, 'move only while the recorder records')
+    realtime: RealtimeSettings = nested(RealtimeSettings())
     slider: Slider = nested(Slider())
 
     def __post_init__(self) -> None:

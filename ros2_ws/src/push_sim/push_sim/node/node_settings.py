@@ -3,7 +3,7 @@
 from dataclasses import dataclass, fields
 
 import numpy as np
-from push_core.common import nested, setting, validate
+from push_core.common import RealtimeSettings, nested, setting, validate
 from push_core.geometry import Array
 from push_core.physics import Slider
 
@@ -52,6 +52,7 @@ class NodeSettings(SimSettings):
     )
     seed: int = setting(0, 'seed of everything random', low=0, high=2**62)
     start: StartSettings = nested(StartSettings())
+    realtime: RealtimeSettings = nested(RealtimeSettings())
     slider: Slider = nested(Slider(), _WORLDS_OWN)
 
 

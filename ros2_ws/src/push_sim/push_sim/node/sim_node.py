@@ -70,7 +70,10 @@ class SimNode(Node):  # type: ignore[misc]
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_GRAPH_PERIOD, self._watch_graph, clock=steady)
         profile, mode = self._settings.profile, self._settings.mode
-        self.get_logger().info(f'{profile}, {mode}; {enter_realtime(mode)}')
+        scheduling = enter_realtime(mode, self._settings.realtime)
+        self.get_logger().info(f'{profile}, {mode}; {scheduling.text}')
+        if scheduling.warning:
+            self.get_logger().warning(scheduling.warning)
 
     def destroy_node(self) -> None:
         """Also closes the plant."""
