@@ -18,7 +18,7 @@ setup(
         ('share/push_bringup/config', [str(path) for path in Path('config').glob('*.*')]),
         ('share/push_bringup/launch', [str(path) for path in Path('launch').glob('*.py')]),
     ],
-    install_requires=['setuptools', 'numpy', 'osqp', 'plotly', 'PyYAML', 'scipy', 'tqdm'],
+    install_requires=['setuptools', 'numpy', 'osqp', 'plotly', 'PyYAML', 'rich', 'scipy', 'tqdm'],
     extras_require={
         'test': ['pytest'],
         'bench': ['clarabel', 'daqp', 'gpytorch', 'piqp', 'proxsuite', 'scikit-learn', 'torch'],

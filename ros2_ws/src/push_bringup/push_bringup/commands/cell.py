@@ -74,7 +74,7 @@ def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path)
         return recorded_in_process(parameters, model, plan)
     from push_bringup.graph.node_graph import run_graph
 
-    return run_graph(inputs / PARAMETERS_FILE, request.namespace, inputs)
+    return run_graph(inputs / PARAMETERS_FILE, request.namespace, inputs, watch=request.watch)
 
 
 def _finish(folder: Path, reason: str) -> int:

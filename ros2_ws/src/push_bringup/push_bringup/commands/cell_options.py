@@ -92,6 +92,9 @@ def parser() -> Parser:
     )
     parser.add_argument('--namespace', default='', help='of the node graph')
     parser.add_argument(
+        '--watch', action='store_true', help='show modes, errors and the health of the nodes'
+    )
+    parser.add_argument(
         '-o',
         '--output',
         type=Path,
@@ -110,6 +113,8 @@ def requested(arguments: argparse.Namespace) -> Request:
     """
     if arguments.speed is not None and not arguments.speed > 0.0:
         raise InputError(f'--speed is {arguments.speed:g}, must be above 0 m/s')
+    if arguments.watch and arguments.mode == 'inprocess':
+        raise InputError('--watch has no effect on --mode inprocess, which has no nodes')
     overrides = dict(parsed_override(text) for text in arguments.param)
     return Request(
         track=arguments.track,
@@ -126,6 +131,7 @@ def requested(arguments: argparse.Namespace) -> Request:
         overrides=overrides,
         preset=arguments.preset,
         start=arguments.start,
+        watch=arguments.watch,
         params=arguments.params,
     )
 

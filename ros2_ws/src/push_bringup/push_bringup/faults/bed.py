@@ -51,24 +51,24 @@ class Bed:
         folder: of the recording.
     """
 
-    def __init__(self, case: Case, folder: Path, namespace: str) -> None:
+    def __init__(self, case: Case, folder: Path, namespace: str, *, relayed: bool = True) -> None:
         """Starts the nodes.
 
         Args:
             case: the first one; the others must need the same cell.
             folder: for parameters, logs and the recording.
             namespace: of the nodes.
+            relayed: whether the poses go through the relay.
         """
         self._sick_file = folder / 'sick'
         os.environ[FAULT_FILE] = str(self._sick_file)
         parameters, self.folder = _written(case, folder, namespace)
         self.node = Node('faults', namespace=namespace)
         self._spinner = Spinner(self.node)
-        self.relay, self.observer = Relay(self.node), Observer(self.node)
+        self.relay, self.observer = Relay(self.node, relayed), Observer(self.node)
         modules = {**MODULES, **{name: _SICK[name] for name in case.fault.sick}}
-        self.processes = Processes(
-            parameters, namespace, folder, modules, {'sim_node': remappings()}
-        )
+        arguments = {'sim_node': remappings()} if relayed else {}
+        self.processes = Processes(parameters, namespace, folder, modules, arguments)
         self._starter = Starter(self.node, self.wait)
         self._stop, self._resume = (
             service.client(self.node) for service in (interface.STOP, interface.RESUME)

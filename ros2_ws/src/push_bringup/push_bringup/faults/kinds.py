@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable
 
 from geometry_msgs.msg import Pose, PoseStamped, TwistStamped
+from push_msgs.srv import AddPushes
 from push_node import interface
 from push_node.endpoints import GraphTopic
 from push_node.stamps import to_nanoseconds, to_stamp
@@ -27,6 +28,8 @@ FROZEN = 0.27  # [s], parameter guard.frozen and one tick
 FAST = 0.06  # [s] longer to rest from the largest speed: the lag is exponential
 OVERLAPS = 0.35  # [s] until the tip seems to be guard.overlap inside the object
 FOR_GOOD = 3.0  # [s]
+PUSH = 0.004  # [m], parameter distance of gp_server
+POISONED = 10.0  # [s] in which a wrong model loses the object
 BOTH = ('realtime', 'lockstep')
 Inject = Callable[[Bed, random.Random], float]
 
@@ -312,6 +315,53 @@ def _solver_faults() -> dict[str, Fault]:
     return {f'solver_{how}': fault for how, fault in failing.items()} | {'solver_slow': slow}
 
 
+def _learn(how: str, duration: float = 2.0) -> Inject:
+    """The server is sick while a model that has grown is announced."""
+
+    def inject(bed: Bed, chance: random.Random) -> float:
+        bed.make_sick(how)
+        p_y, beta = chance.uniform(-0.04, 0.04), chance.uniform(0.5, 2.5)
+        request = AddPushes.Request(p_y=[p_y], beta=[beta], distance=PUSH)
+        request.displacement = [0.003, 0.0, 0.0]
+        client = interface.ADD_PUSHES.client(bed.node)
+        bed.wait(client.service_is_ready, 5.0)
+        client.call_async(request)
+        bed.wait(lambda: bed.ended, duration)
+        bed.make_sick('')
+        return duration
+
+    return inject
+
+
+def _server_faults() -> dict[str, Fault]:
+    sick = ('gp_server',)
+    return {
+        f'server_{how}': Fault(
+            f'a model that has grown is announced, and the server {text}',
+            Outcome.CONTINUES,
+            _learn(how),
+            sick=sick,
+        )
+        for how, text in {
+            'silent': 'does not answer',
+            'late': 'answers each request 0.3 s late',
+            'nonsense': 'answers NaN',
+            'huge': 'answers 1e300',
+            'short': 'answers half of each request',
+        }.items()
+    } | {
+        'server_poison': Fault(
+            'a model that has grown is announced, with left and right exchanged',
+            Outcome.STOPS,
+            _learn('poison', POISONED),
+            '',
+            POISONED,
+            sick=sick,
+            breaks=True,
+        )
+    }
+
+
 def _others() -> dict[str, Fault]:
     return {
         'stop': Fault(
@@ -352,6 +402,7 @@ KINDS: dict[str, Fault] = {
     **_freezes(),
     **_pose_faults(),
     **_solver_faults(),
+    **_server_faults(),
     **_others(),
 }
 """Every fault by its name."""

@@ -85,7 +85,8 @@ class Observer:
             self.seen.reasons.append(reason)
 
     def _on_plan(self, message: NominalTrajectory) -> None:
-        self.plan = message
+        if 0 < len(message.time) == len(message.x) == len(message.y):
+            self.plan = message
 
     def _distance(self, state: Array, time: float) -> float:
         plan = self.plan

@@ -29,9 +29,10 @@ class Relay:
         spoil: what is done to each pose; None passes all on as they are.
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, connected: bool) -> None:
+        """Connects cameras and controller, unless they are connected without it."""
         self.spoil: Spoil | None = None
-        for topic in TOPICS:
+        for topic in TOPICS if connected else ():
             self._connect(node, topic)
 
     def _connect(self, node: Node, topic: GraphTopic) -> None:

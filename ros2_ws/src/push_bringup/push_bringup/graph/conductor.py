@@ -2,7 +2,8 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 
 import rclpy
 from push_core.common import RunError
@@ -27,13 +28,16 @@ _ENDS = (Mode.DONE, Mode.STOPPED, Mode.FAULT)
 class Conductor:
     """A node that calls the services of the cell and listens to its controller."""
 
-    def __init__(self, namespace: str, processes: Processes, *, alone: bool = True) -> None:
+    def __init__(
+        self, namespace: str, processes: Processes, *, alone: bool = True, watch: bool = False
+    ) -> None:
         """Joins the graph.
 
         Args:
             namespace: of the cell, '' for none.
             processes: the nodes.
             alone: whether they are still to be started, so that no other may be there.
+            watch: whether to show a view of the cell instead of a progress bar.
         """
         stop_on_signals()
         init_ros()
@@ -46,6 +50,7 @@ class Conductor:
         interface.NOMINAL_TRAJECTORY.subscription(self._node, self._on_plan)
         interface.CONTROLLER_STATE.subscription(self._node, self._on_state)
         self._end = interface.RUN_END.publisher(self._node)
+        self._view = watch_view(self._node) if watch else None
         self._starter = Starter(self._node, self._wait_for)
 
     def close(self) -> None:
@@ -87,15 +92,12 @@ class Conductor:
     def _watch(self) -> str:
         assert self._plan is not None
         self._state, self._last_tick = None, time.monotonic()
-        with tqdm(
-            total=round(self._plan.time[-1], 2), unit='s', desc='pushing', disable=None
-        ) as bar:
+        with self._view or progress_bar() as show:
             while not self._ended():
                 self._spin_once()
                 if time.monotonic() - self._last_tick > STALL_TIMEOUT:
                     raise RunError(f'no tick of mpc_node for {STALL_TIMEOUT:g} s')
-                if self._state is not None and math.isfinite(self._state.reference_time):
-                    bar.update(min(max(self._state.reference_time, bar.n), bar.total) - bar.n)
+                show(self._state, self._plan)
         return str(self._state.stop_reason) if self._state else ''
 
     def _ended(self) -> bool:
@@ -123,3 +125,26 @@ class Conductor:
         self._processes.check()
         if not self._spinner.once():
             raise KeyboardInterrupt
+
+
+Show = Callable[[ControllerState | None, NominalTrajectory], None]
+
+
+@contextmanager
+def progress_bar() -> Iterator[Show]:
+    """A bar of the time of the reference, silent where nobody looks."""
+    with tqdm(unit='s', desc='pushing', disable=None) as bar:
+
+        def show(state: ControllerState | None, plan: NominalTrajectory) -> None:
+            bar.total = round(plan.time[-1], 2)
+            if state is not None and math.isfinite(state.reference_time):
+                bar.update(min(max(state.reference_time, bar.n), bar.total) - bar.n)
+
+        yield show
+
+
+def watch_view(node: Node) -> AbstractContextManager[Show]:
+    """The view of `cell --watch`; its library is imported only then."""
+    from push_bringup.graph.watch_view import WatchView  # noqa: PLC0415
+
+    return WatchView(node)

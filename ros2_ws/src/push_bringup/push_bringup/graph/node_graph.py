@@ -14,13 +14,14 @@ FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 REST_TIME = 0.3  # [s] for watchdog, braking and the last messages
 
 
-def run_graph(params: Path, namespace: str, logs: Path) -> str:
+def run_graph(params: Path, namespace: str, logs: Path, *, watch: bool = False) -> str:
     """Starts the nodes, pushes once along the track, stops them cleanly.
 
     Args:
         params: resolved parameter file.
         namespace: of the nodes, '' for none.
         logs: folder for the output of the nodes.
+        watch: whether to show a view of the cell in the terminal.
 
     Returns:
         Reason of an early end, else an empty string.
@@ -38,7 +39,7 @@ def run_graph(params: Path, namespace: str, logs: Path) -> str:
         # rclpy is slow to import, and other modes need none of it
         from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
 
-        conductor = Conductor(namespace, processes)
+        conductor = Conductor(namespace, processes, watch=watch)
         try:
             return conductor.run()
         finally:

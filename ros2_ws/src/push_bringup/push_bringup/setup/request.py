@@ -25,6 +25,7 @@ class Request:
         namespace: of the node graph, '' for none.
         overrides: further parameters, by name or by node.name.
         params: parameter file that overrides that of the cell.
+        watch: whether to show a view of the running nodes.
     """
 
     track: str | None = None
@@ -42,6 +43,7 @@ class Request:
     namespace: str = ''
     overrides: Mapping[str, object] = field(default_factory=dict)
     params: Path | None = None
+    watch: bool = False
 
     @property
     def is_in_process(self) -> bool:

@@ -258,7 +258,7 @@ class Controller:
         if reference_time >= self.plan.duration:
             self._machine.take(Event.END)
         else:
-            self._watch(object_pose, tip, reference_time)
+            self._watch(object_pose, tip, reference_time, exposure)
         self._disturbance.observe(self._model.table, object_pose, tip)
         pose, tip_then, acts_at = object_pose, tip, exposure
         if self.settings.delay_compensation:
@@ -276,10 +276,13 @@ class Controller:
         self._limit(tick, predicted[2], tip)
         return tick
 
-    def _watch(self, object_pose: Array, tip: Array, reference_time: float) -> None:
+    def _watch(
+        self, object_pose: Array, tip: Array, reference_time: float, exposure: float
+    ) -> None:
         """Stops a run that cannot go on."""
         reference = self.plan.at(reference_time)[0][:2]
-        fault = self._guard.fault(object_pose, tip, reference, bool(self._sent.any()))
+        commanded = bool(self._sent.any())
+        fault = self._guard.fault(object_pose, tip, reference, commanded, exposure)
         if fault:
             self.stop(fault)
 
