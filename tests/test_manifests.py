@@ -29,6 +29,7 @@ ROSDEP_KEYS = {
     'rosbags': 'python3-rosbags-pip',
     'scipy': 'python3-scipy',
     'sklearn': 'python3-sklearn',
+    'rich': 'python3-rich',
     'tqdm': 'python3-tqdm',
     'websockets': 'python3-websockets',
     'yaml': 'python3-yaml',

@@ -103,6 +103,9 @@ class Client:
         x, y, theta = ([value] for value in pose)
         self._plans.publish(NominalTrajectory(track='line', x=x, y=y, theta=theta, p_y=[p_y]))
 
+    def announce_half_a_plan(self) -> None:
+        self._plans.publish(NominalTrajectory(track='line', x=[0.1, 0.2], y=[0.1]))
+
     def reset_to_plan(self) -> Trigger.Response:
         return self._call(self._reset_to_plan, Trigger.Request())
 
@@ -280,6 +283,17 @@ def test_a_reset_to_the_plan_needs_a_plan_and_touches_the_object_at_its_start(
     truth = client.truths[-1]
     assert truth.pose == pytest.approx(pose, abs=1e-6)
     assert (truth.p_y, truth.gap) == pytest.approx((p_y, 0.0), abs=1e-6)
+
+
+def test_what_is_no_plan_leaves_the_one_before(client, lockstep) -> None:
+    pose, p_y = [0.2, -0.1, 0.3], 0.0
+    client.announce_plan(pose, p_y)
+    client.wait(lambda: client.reset_to_plan().success)
+    client.announce_half_a_plan()
+    assert all(client.reset_to_plan().success for _ in range(5))
+    client.truths.clear()
+    client.wait(lambda: len(client.truths) >= 3)
+    assert client.truths[-1].pose == pytest.approx(pose, abs=1e-6)
 
 
 def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it() -> None:

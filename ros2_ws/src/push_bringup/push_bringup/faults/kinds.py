@@ -352,7 +352,7 @@ def _server_faults() -> dict[str, Fault]:
     } | {
         'server_poison': Fault(
             'a model that has grown is announced, with left and right exchanged',
-            Outcome.STOPS,
+            Outcome.RESTS,
             _learn('poison', POISONED),
             '',
             POISONED,

@@ -137,13 +137,17 @@ class SimNode(Node):  # type: ignore[misc]
         return response
 
     def _on_plan(self, message: NominalTrajectory) -> None:
-        self._plan = message
+        lines = (message.x, message.y, message.theta, message.p_y)
+        if all(lines) and len({len(line) for line in lines}) == 1:
+            self._plan = message
+        else:
+            self.get_logger().error(f'{interface.NOMINAL_TRAJECTORY.name}: no plan, ignored')
 
     def _on_reset_to_plan(
         self, _request: Trigger.Request, response: Trigger.Response
     ) -> Trigger.Response:
         plan, topic = self._plan, interface.NOMINAL_TRAJECTORY.name
-        if plan is None or not plan.x:
+        if plan is None:
             response.message = f'no plan on {topic} yet; is mpc_node running?'
             return response
         pose = np.array([plan.x[0], plan.y[0], plan.theta[0]])
