@@ -59,7 +59,9 @@ def test_a_stop_must_come_in_time_and_with_its_reason() -> None:
 def test_going_on_means_tracking_at_the_end_near_the_reference() -> None:
     assert found(Outcome.CONTINUES, seen_of(0.08)) == []
     assert found(Outcome.CONTINUES, seen_of(0.08, Mode.STOPPED)) == ['it stopped']
-    assert found(Outcome.CONTINUES, seen_of(0.0, Mode.HOLDING)) == ['it does not track at the end']
+    assert found(Outcome.CONTINUES, seen_of(0.0, Mode.HOLDING)) == [
+        'it does not track at the end: HOLDING'
+    ]
     away = found(Outcome.CONTINUES, seen_of(0.08, distance=0.02))
     assert away == ['20.0 mm from the reference']
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from push_core.geometry import Array
 from push_core.physics import ActuatorSettings, SafetyLimits
-from push_mpc.loop import Mode
+from push_mpc.loop import FOLLOWING, Mode
 
 from push_bringup.faults.case import Case, Outcome
 from push_bringup.faults.observer import Seen
@@ -98,8 +98,9 @@ def _progress_problems(seen: Seen, healed: int) -> list[str]:
     after = [state for state in seen.states if state[0] > healed]
     last = [state for state in after if state[0] > after[-1][0] - 1e9 * _LAST]
     # a host that is busy makes single holds
-    tracking = [state[3] for state in last if state[1] in (Mode.TRACKING, Mode.DONE)]
+    tracking = [state[3] for state in last if state[1] in (*FOLLOWING, Mode.DONE)]
     if not last or len(tracking) < 0.5 * len(last):
-        return ['it does not track at the end']
+        modes = ', '.join(sorted({Mode(state[1]).name for state in last}))
+        return [f'it does not track at the end: {modes or "no tick"}']
     distance = float(np.nanmean(tracking))
     return [f'{1e3 * distance:.1f} mm from the reference'] if distance > FAR else []
