@@ -207,10 +207,13 @@ class RunRows:
         return ticks(columns)
 
     def _stop_reason(self, start: Start) -> str:
-        """The last reason that the controller stated; empty without one."""
+        """The first reason that the controller stated; empty without one.
+
+        It keeps the first of a stop; after a release that no tick shows, another may follow.
+        """
         order = self._tables[STATE].log_order[start.ticks]
         stated = [self._stop_reasons[row] for row in order.tolist()]
-        return next((reason for reason in reversed(stated) if reason), '')
+        return next((reason for reason in stated if reason), '')
 
     def _reference(self, start: Start) -> Reference | None:
         plan = self._latest(interface.NOMINAL_TRAJECTORY, start)

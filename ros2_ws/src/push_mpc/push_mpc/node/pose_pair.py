@@ -137,9 +137,17 @@ class PosePair:
     def _on_clock(self, message: Clock) -> None:
         self._clock = to_nanoseconds(message.clock)
         if self._clock == self._handled_clock:
-            self._on_repeat()
+            self._take_again()
         else:
             self._handle_if_complete()
+
+    def _take_again(self) -> None:
+        """Takes the pair that the waiting simulator repeats; after a reset it may be elsewhere."""
+        nearest = self._tips.nearest(self._object_stamp)
+        if nearest is not None:
+            self.object_pose, self.tip = self._object, nearest[1]
+        self._accepted = time.monotonic()
+        self._on_repeat()
 
     def _handle_if_complete(self) -> None:
         stamp = self._object_stamp
