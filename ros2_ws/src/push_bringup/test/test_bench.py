@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -28,19 +29,21 @@ from push_bringup.bench.training_size import TrainingSet, chosen_rows
 from push_bringup.bench.training_size_page import training_size_page
 from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
-from push_bringup.experiment.lap import Lap, pushed
+from push_bringup.experiment.lap import Lap, LapErrors, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
 from push_bringup.mismatch.plants import PLANTS, PlantVariant
 from push_core.common.strict_json import finite
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
-LAP = Lap(True, '', 1.5, 4.0, 1.4, 3.0, ((0.0, 1.0), (2.0, 3.0)), (1.0, 4.0))
+ROUNDS = (LapErrors(1.5, 4.0, 1.4), LapErrors(0.5, 1.0, 0.4, (0.2, 0.01), (31.0, 0.1)))
+LAP = Lap(True, '', 1.5, 4.0, 1.4, 3.0, ((0.0, 1.0), (2.0, 3.0)), (1.0, 4.0), ROUNDS)
 
 
 def with_error(millimetres: float, completed: bool = True) -> Lap:
     reason = '' if completed else 'left the face'
-    return Lap(completed, reason, millimetres, millimetres, 0.5 * millimetres, 3.0, (), ())
+    rounds = tuple(LapErrors(each, each, 0.5 * each) for each in (millimetres, millimetres / 4))
+    return Lap(completed, reason, millimetres, millimetres, 0.5 * millimetres, 3.0, (), (), rounds)
 
 
 def test_a_lap_is_judged_by_its_error_and_its_end() -> None:
@@ -195,15 +198,29 @@ def test_a_mismatch_tells_the_error_of_the_laps_that_were_completed() -> None:
         MismatchRow('rim', 'pressure at the rim', LINE, controller, laps[:count]).as_json()
         for controller, count in (('gp', 3), ('analytical', 2))
     ]
-    assert (rows[0]['laps_mm'], rows[0]['completed'], rows[0]['learn']) == ([1.0], 2, False)
+    assert (rows[0]['laps_mm'], rows[0]['completed'], rows[0]['learn']) == ([1.0, 0.25], 2, False)
     assert rows[0]['stop_reasons'] == ['left the face']
     table = mismatch_rows({'rows': rows})
     assert (
-        '| rim | pressure at the rim | line 150 mm/s | 1.00 mm (2 of 3 laps) | 1.00 mm |' in table
+        '| rim | pressure at the rim | line 150 mm/s | 1.00 mm → 0.25 mm (2 of 3 runs) |' in table
     )
     lost = MismatchRow('rim', 'pressure at the rim', LINE, 'gp', laps[2:]).as_json()
     assert lost['laps_mm'] == [None]
     assert 'lost (0 of 1 laps)' in mismatch_rows({'rows': [lost]})
+
+
+def test_a_lap_teaches_the_next_what_its_plant_is() -> None:
+    circle = Experiment('circle', 0.1)
+    plant = {'world.engine': 'quasi_static', 'world.friction_pusher': 0.5}
+    job = LapJob(circle, 'gp', 'analytical', 'ideal', 0, plant, laps=2, learn=True)
+    taught, untaught = pushed(job), pushed(replace(job, learn=False))
+    assert taught.completed
+    assert untaught.per_lap[0] == taught.per_lap[0]
+    assert taught.per_lap[1].truth_mean_mm < 0.7 * untaught.per_lap[1].truth_mean_mm
+    assert taught.per_lap[0].friction is untaught.per_lap[1].friction is None
+    friction, uncertainty = taught.per_lap[1].friction or (math.nan, math.nan)
+    assert 0.3 < friction < 0.8
+    assert 0.0 < uncertainty < 0.3
 
 
 def test_every_plant_is_a_cell_and_each_is_another(tmp_path) -> None:

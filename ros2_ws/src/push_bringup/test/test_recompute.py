@@ -9,9 +9,10 @@ from push_bag.file.bag_writer import BagWriter
 from push_bag.file.reader import BagReader
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.recorded_ticks import RecordedRun
-from push_bringup.in_process.loop import InProcessCell, nanoseconds, tabulated
+from push_bringup.in_process.loop import InProcessCell, nanoseconds
 from push_bringup.in_process.qp_of_tick import qp_text
 from push_bringup.in_process.record import InProcessRecord
+from push_bringup.in_process.tables import tabulated
 from push_bringup.setup.cell_parameters import CellParameters, node_defaults
 from push_core.common.errors import InputError
 from push_gp.models.model_file import load_model, model_named

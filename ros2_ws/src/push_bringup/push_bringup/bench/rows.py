@@ -111,7 +111,8 @@ class MismatchRow:
         text: how it differs from what the controller assumes.
         experiment: what was pushed on it.
         controller: its name.
-        laps: one for each seed.
+        laps: one run for each seed.
+        learn: whether each lap taught the next.
     """
 
     plant: str
@@ -119,24 +120,25 @@ class MismatchRow:
     experiment: Experiment
     controller: str
     laps: tuple[Lap, ...]
+    learn: bool = False
 
     @property
     def completed(self) -> int:
-        """Number of completed laps."""
+        """Number of completed runs."""
         return sum(lap.completed for lap in self.laps)
 
     def as_json(self) -> dict[str, Any]:
-        """The row as `--json` prints it; the error is the median of the completed laps."""
-        errors = [lap.truth_mean_mm for lap in self.laps if lap.completed]
+        """The row as `--json` prints it; errors are medians of the completed runs, by round."""
+        rounds = [[one.truth_mean_mm for one in lap.per_lap] for lap in self.laps if lap.completed]
         return {
             'plant': self.plant,
             'text': self.text,
             **experiment_json(self.experiment),
             'controller': self.controller,
-            'learn': False,
+            'learn': self.learn,
             'seeds': len(self.laps),
             'completed': self.completed,
-            'laps_mm': [median(errors) if errors else None],
+            'laps_mm': [median(each) for each in zip(*rounds, strict=True)] or [None],
             'stop_reasons': [lap.stop_reason for lap in self.laps if not lap.completed],
         }
 

@@ -84,7 +84,10 @@ def _ablation_cell(error: float | None, completed: int, seeds: int) -> str:
 
 
 def mismatch_rows(results: BenchResults) -> str:
-    """The table of `bench mismatch`: a line for each plant, a column for each controller."""
+    """The table of `bench mismatch`: a line for each plant, a column for each controller.
+
+    Of several laps it has the first, the second and the last.
+    """
     by_plant: dict[str, dict[str, Mapping[str, Any]]] = {}
     for row in results['rows']:
         by_plant.setdefault(row['plant'], {})[row['controller']] = row
@@ -104,12 +107,14 @@ def mismatch_rows(results: BenchResults) -> str:
 
 
 def _mismatch_cell(row: Mapping[str, Any]) -> str:
-    if row['completed'] == row['seeds']:
-        return _millimetres(row['laps_mm'][0])
-    count = f'{row["completed"]} of {row["seeds"]} laps'
-    return (
-        f'{_millimetres(row["laps_mm"][0])} ({count})' if row['completed'] else f'lost ({count})'
+    count = (
+        f'{row["completed"]} of {row["seeds"]} {"laps" if len(row["laps_mm"]) == 1 else "runs"}'
     )
+    if not row['completed']:
+        return f'lost ({count})'
+    laps = dict.fromkeys((0, min(1, len(row['laps_mm']) - 1), len(row['laps_mm']) - 1))
+    text = ' → '.join(_millimetres(row['laps_mm'][lap]) for lap in laps)
+    return text if row['completed'] == row['seeds'] else f'{text} ({count})'
 
 
 def solver_rows(results: BenchResults) -> str:

@@ -41,6 +41,8 @@ class LapJob:
         profile: of the plant and of the robot that the controller assumes.
         seed: of everything random.
         overrides: further parameters, as `cell -p` takes them.
+        laps: rounds of a closed track in one run.
+        learn: whether each lap teaches the next.
     """
 
     experiment: Experiment
@@ -49,6 +51,8 @@ class LapJob:
     profile: str
     seed: int
     overrides: Mapping[str, object] = field(default_factory=dict)
+    laps: int = 1
+    learn: bool = False
 
     @cached_property
     def key(self) -> str:
@@ -80,7 +84,7 @@ class LapJob:
             model=self.model,
             profile=self.profile,
             perturb=self.experiment.perturbation,
-            laps=1,
+            laps=self.laps,
             seed=self.seed,
             mode='inprocess',
             output=Path(),

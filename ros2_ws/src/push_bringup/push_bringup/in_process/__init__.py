@@ -1,5 +1,6 @@
 """Plant and controller in one loop without ROS; also computes a recorded run again."""
 
-from push_bringup.in_process.loop import InProcessCell, tabulated
+from push_bringup.in_process.loop import InProcessCell
+from push_bringup.in_process.tables import tabulated
 
 __all__ = ['InProcessCell', 'tabulated']

@@ -3,16 +3,16 @@
 import time
 from collections.abc import Callable
 
-import numpy as np
 from push_core.common import RunError
 from push_gp.models import PushModel
 from push_mpc.loop import Controller, Mode, Tick, here_fault
 from push_mpc.plan import Plan
-from push_mpc.table import Domain, ModelScope, Query, QueryResult, Table, tabulation
 from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 from tqdm import tqdm
 
+from push_bringup.in_process.lap_learner import LapLearner
+from push_bringup.in_process.tables import tabulated
 from push_bringup.setup import CellParameters
 
 # a thread of the progress bar would take the Ctrl-C that the controller holds while it solves
@@ -26,9 +26,12 @@ class InProcessCell:
     Attributes:
         plant: world, robot and cameras.
         controller: commands the tip.
+        learner: learns from every lap; None if nothing is learned.
     """
 
-    def __init__(self, parameters: CellParameters, model: PushModel, plan: Plan) -> None:
+    def __init__(
+        self, parameters: CellParameters, model: PushModel, plan: Plan, learn: bool = False
+    ) -> None:
         """Makes plant and controller; the plan must be made from the same parameters."""
         mpc = parameters.mpc
         self.plant = Plant(parameters.sim, parameters.sim.slider)
@@ -37,6 +40,7 @@ class InProcessCell:
         self._first: Observation | None = None
         table = tabulated(model, mpc.slider.side)
         self.controller.use(self.controller.prepare_model(table, model.info.model_id))
+        self.learner = LapLearner(self.controller, mpc) if learn else None
 
     def start(self) -> None:
         """Resets the plant and arms the controller.
@@ -82,10 +86,16 @@ class InProcessCell:
                 to_seconds(nanoseconds(self.plant.time) - origin),
             )
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
+            self._learn(observation, tick)
             self.controller.prepare_next()
             self.plant.command(tick.velocity, self.plant.time)
             observation = self.plant.step_until_seen()
         return self.controller.stop_reason
+
+    def _learn(self, observation: Observation, tick: Tick) -> None:
+        learned = self.learner.observe(observation, tick) if self.learner else None
+        if learned is not None:
+            self.controller.use(learned)
 
     def close(self) -> None:
         """Frees the physics server."""
@@ -99,25 +109,6 @@ class InProcessCell:
             state = self.controller.plan.state[0]
             pose, tip = state[:3], self._mpc.slider.tip_position(state[:3], state[3])
         return self.plant.reset(pose, tip, self._sim.seed)
-
-
-def tabulated(model: PushModel, side: float) -> Table:
-    """The table of a model as mpc_node makes it, by direct calls in place of the service."""
-    info = model.info
-    data = Domain.of_data(info.p_y_domain, info.beta_domain, side)
-    queries = tabulation(ModelScope(data, info.kind, info.mean_function, side))
-    query = next(queries)
-    try:
-        while True:
-            query = queries.send(_result(model, query))
-    except StopIteration as done:
-        return done.value.table  # type: ignore[no-any-return]
-
-
-def _result(model: PushModel, query: Query) -> QueryResult:
-    inputs = (query.p_y, query.beta)
-    variance = model.variance(*inputs) if query.want_variance else np.empty((0, 3))
-    return QueryResult.of(*model.evaluate(*inputs), variance, model.distance)
 
 
 def nanoseconds(plant_time: float) -> int:

@@ -21,8 +21,8 @@ from push_mpc.plan import planned
 from push_mpc.settings import CONTROLLERS
 from tqdm import tqdm
 
-from push_bringup.in_process.loop import tabulated
 from push_bringup.in_process.recorded_model import RecordedModel
+from push_bringup.in_process.tables import tabulated
 from push_bringup.setup import CellParameters, recorded_parameters
 
 PARAMS_FILE = 'params.yaml'

@@ -53,7 +53,11 @@ def _ablation(_section: str, results: Mapping[str, Any]) -> Named:
 
 def _mismatch(section: str, results: Mapping[str, Any]) -> Named:
     for row in results['rows']:
-        yield f'{section}_{_word(row["plant"])}_{row["controller"]}', row['laps_mm'][0]
+        name = f'{section}_{_word(row["plant"])}_{row["controller"]}'
+        yield name, row['laps_mm'][0]
+        if row['learn']:
+            yield f'{name}_lap_2', row['laps_mm'][min(1, len(row['laps_mm']) - 1)]
+            yield f'{name}_last', row['laps_mm'][-1]
 
 
 def _solvers(section: str, results: Mapping[str, Any]) -> Named:

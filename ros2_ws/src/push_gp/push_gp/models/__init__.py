@@ -7,6 +7,7 @@ from push_gp.models.model import ModelInfo, PushModel
 from push_gp.models.model_file import VERSION, load_model, model_named, save_model
 from push_gp.models.sampling import Rows, five_push_rows, nested_rows, random_rows, subset_rows
 from push_gp.models.sealed_archive import read_sealed
+from push_gp.models.smooth_cone import SmoothCone
 
 __all__ = [
     'ANALYTICAL',
@@ -20,6 +21,7 @@ __all__ = [
     'ModelInfo',
     'PushModel',
     'Rows',
+    'SmoothCone',
     'ZeroMean',
     'five_push_rows',
     'load_model',

@@ -73,14 +73,27 @@ class ConeMean:
         return table.reshape(_COUNTS[0], -1)
 
     def _averaged(self, queries: Array) -> tuple[Array, Array]:
-        """Expectation over normally distributed push directions."""
-        directions = queries[:, 1:] + _BLUR * _NODES
-        contacts = np.repeat(queries[:, 0], _NODES.size)
-        mean, jacobian = self.cone.evaluate(contacts, directions.ravel())
-        return (
-            np.einsum('k,nki->ni', _SHARES, mean.reshape(-1, _NODES.size, 3)),
-            np.einsum('k,nkij->nij', _SHARES, jacobian.reshape(-1, _NODES.size, 3, 2)),
-        )
+        return averaged(self.cone, queries, _BLUR)
+
+
+def averaged(cone: AnalyticalModel, queries: Array, blur: float) -> tuple[Array, Array]:
+    """A motion cone averaged over normally distributed push directions.
+
+    Args:
+        cone: of any slider.
+        queries: (n, 2) contact offsets [m] and push directions [rad].
+        blur: standard deviation of the push direction [rad].
+
+    Returns:
+        Mean (n, 3) and Jacobian (n, 3, 2), see `PushModel.evaluate`.
+    """
+    directions = queries[:, 1:] + blur * _NODES
+    contacts = np.repeat(queries[:, 0], _NODES.size)
+    mean, jacobian = cone.evaluate(contacts, directions.ravel())
+    return (
+        np.einsum('k,nki->ni', _SHARES, mean.reshape(-1, _NODES.size, 3)),
+        np.einsum('k,nkij->nij', _SHARES, jacobian.reshape(-1, _NODES.size, 3, 2)),
+    )
 
 
 MeanFunction: TypeAlias = ZeroMean | ConeMean

@@ -17,13 +17,14 @@ from push_mpc.loop.prepared_model import PreparedModel
 from push_mpc.loop.reference_clock import ReferenceClock
 from push_mpc.loop.tick import Tick
 from push_mpc.motion import TravelMotion
-from push_mpc.plan import Placement, Plan, consistent_plan
+from push_mpc.plan import Lesson, Placement, Plan, consistent_plan, guesses
 from push_mpc.qp import Move, PlannedStates, Problem, Steering
 from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
 _STILL = np.zeros(2)
 _RAISED = 0  # status of a solver that raised an exception
+_LEARNED_CHANGE = 1.5  # of a plan with an identified model, see `consistent_plan`
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
@@ -89,17 +90,39 @@ class Controller:
         """The QPs of the latest tick; after a stop by the solver those that it did not solve."""
         return tuple(solver.problem for solver in self._steering.solvers)
 
-    def prepare_model(self, table: Table, model_id: str) -> PreparedModel:
-        """Plans with a model and linearises along the track; safe to call in another thread."""
-        plan = self.track_plan
+    def prepare_model(
+        self, table: Table, model_id: str, lesson: Lesson | None = None
+    ) -> PreparedModel:
+        """Plans with a model and linearises along the track; safe to call in another thread.
+
+        Args:
+            table: the model.
+            model_id: of model and lesson.
+            lesson: what laps have taught, None before the first.
+        """
+        lesson = lesson or Lesson()
+        plan = lesson.reference(self.track_plan)
         if self.settings.consistent_plan:
-            plan = consistent_plan(plan, TravelMotion(table, self._slider.tip_x))
-        linearised = self._steering.linearised(table, plan, self._stride)
-        return PreparedModel(table, plan, linearised, model_id)
+            plan = self._consistent(plan, table, lesson) or plan
+        steering = self._steering.of_slider(lesson.slider or self._slider)
+        linearised = steering.linearised(table, plan, self._stride)
+        return PreparedModel(table, plan, linearised, model_id, lesson.slider or self._slider)
+
+    def _consistent(self, plan: Plan, table: Table, lesson: Lesson) -> Plan | None:
+        """The plan that agrees with a model's motion, None if none is found."""
+        motion = TravelMotion(table, self._slider.tip_x)
+        if lesson.slider is None:
+            return consistent_plan(plan, motion)
+        found = (
+            consistent_plan(guess, motion, _LEARNED_CHANGE)
+            for guess in guesses(plan, self._slider, lesson.slider)
+        )
+        return next((each for each in found if each is not None), None)
 
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""
         first = self._model is None
+        self._steering = self._steering.of_slider(model.slider)
         # limits may have changed since it was prepared
         bounded = self._steering.bounded(model.linearised)
         model = self._along_track = replace(model, linearised=bounded)

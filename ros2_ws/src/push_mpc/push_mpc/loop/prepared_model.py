@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, replace
 
+from push_core.physics import Slider
+
 from push_mpc.plan import Placement, Plan
 from push_mpc.qp import LinearisedPlan
 from push_mpc.table import Table
@@ -15,13 +17,15 @@ class PreparedModel:
         table: the model.
         plan: made with it.
         linearised: QP data along the plan.
-        model_id: of the model.
+        model_id: of the model, and of what laps have taught beside it.
+        slider: whose friction and support radius the QPs take.
     """
 
     table: Table
     plan: Plan
     linearised: LinearisedPlan
     model_id: str
+    slider: Slider
 
     def placed(self, placement: Placement) -> 'PreparedModel':
         """The same with the plan moved."""

@@ -1,8 +1,20 @@
 """The nominal: state and input along a track."""
 
 from push_mpc.plan.consistent_plan import consistent_plan
+from push_mpc.plan.leaning import guesses
+from push_mpc.plan.lesson import Lesson
 from push_mpc.plan.nominal import Plan
 from push_mpc.plan.placement import Placement
 from push_mpc.plan.planning import check_pushes, planned
+from push_mpc.plan.reference_shift import ReferenceShift
 
-__all__ = ['Placement', 'Plan', 'check_pushes', 'consistent_plan', 'planned']
+__all__ = [
+    'Lesson',
+    'Placement',
+    'Plan',
+    'ReferenceShift',
+    'check_pushes',
+    'consistent_plan',
+    'guesses',
+    'planned',
+]

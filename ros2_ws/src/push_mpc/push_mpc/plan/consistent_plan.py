@@ -22,7 +22,9 @@ _SHORTEST = 1e-3  # smallest share of a Gauss-Newton step
 _DONE = 1e-3  # relative decrease of the merit that ends the iteration
 _SLACK = 2e-6  # [m], [rad]; largest accepted defect (error of the equations of motion)
 _DEFECT_PRICE = 1e3
-_LARGEST_CHANGE = 0.5  # of [v_n, v_t] / speed from the guess
+LARGEST_CHANGE = 0.5
+"""Largest change of [v_n, v_t] / speed from the guess."""
+
 _DAMPING = 1e-5  # of a change of [v_n, v_t] / speed
 
 NX, NU = 4, 2
@@ -46,20 +48,23 @@ class _Trajectory:
         return _Trajectory(self.state + share * change.state, self.input + share * change.input)
 
 
-def consistent_plan(plan: Plan, motion: Motion) -> Plan:
+def consistent_plan(
+    plan: Plan, motion: Motion, largest_change: float = LARGEST_CHANGE
+) -> Plan | None:
     """Re-plans from the same start along the same path with a motion's own equations.
 
     Args:
         plan: initial guess and path; inputs are tip velocities.
         motion: under tip velocities.
+        largest_change: of [v_n, v_t] / speed from the guess.
 
     Returns:
-        The new plan; the given one if the iteration fails or its result slides a lot.
+        The new plan; None if the iteration fails or its result slides a lot.
     """
     problem = _Problem(plan, motion)
     result = problem.solved()
-    if result is None or problem.departs(result):
-        return plan
+    if result is None or problem.departs(result, largest_change):
+        return None
     return problem.sampled(result)
 
 
@@ -98,13 +103,13 @@ class _Problem:
                 break
         return now if np.abs(self._defect(now)).max() < _SLACK else None
 
-    def departs(self, result: _Trajectory) -> bool:
+    def departs(self, result: _Trajectory, largest_change: float) -> bool:
         """Whether its inputs differ so much from the guess that the contact slides a lot.
 
         Sliding is where models are least accurate: in corners tighter than sticking allows, such
         a plan has 1.5 times the tracking error of the flat one.
         """
-        return bool(np.abs(result.input - self._guess.input).max() > _LARGEST_CHANGE)
+        return bool(np.abs(result.input - self._guess.input).max() > largest_change)
 
     def _share(self, now: _Trajectory, change: _Trajectory, merit: float) -> float:
         """Step length in (0, 1] that decreases the merit; below _SHORTEST if none does."""

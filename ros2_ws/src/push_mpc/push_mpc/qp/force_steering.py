@@ -12,7 +12,7 @@ import numpy as np
 from push_core.geometry import Array
 from push_core.physics import ContactMode, LimitSurface, Slider
 
-from push_mpc.motion import ContactForce, TravelModel
+from push_mpc.motion import ContactForce, TravelModel, TravelMotion
 from push_mpc.plan import Plan
 from push_mpc.qp.preview import Preview
 from push_mpc.qp.solution import Solution
@@ -45,15 +45,25 @@ class ForceSteering:
             TrackingQP(settings.horizon_steps, self._space, weights) for _ in FAMILY
         )
 
-    def linearised(self, _model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
-        """See `Steering.linearised`; the limit surface is the slider's, whatever the model."""
+    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
+        """See `Steering.linearised`.
+
+        The derivatives are those of the slider's limit surface, the motion along the plan is the
+        model's: the estimate of the model error is relative to the latter.
+        """
         forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
-        preview = Preview.of(forces, self._motion, stride)
+        rates = TravelMotion(model, self._motion.slider.tip_x).rates(plan.state, plan.input)
+        preview = Preview.of(forces, self._motion, stride, rates)
         stages = [
             Stages.of(self._space, preview, self._limits(preview.contact, forces.input, mode))
             for mode in FAMILY
         ]
         return LinearisedPlan(forces, preview.contact, tuple(stages))
+
+    def of_slider(self, slider: Slider) -> 'ForceSteering':
+        """See `Steering.of_slider`."""
+        same = slider == self._motion.slider
+        return self if same else ForceSteering(self._settings, slider)
 
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""

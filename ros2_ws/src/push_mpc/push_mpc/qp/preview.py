@@ -34,12 +34,20 @@ class Preview:
     contact: Array
 
     @classmethod
-    def of(cls, plan: Plan, motion: Motion, stride: int) -> 'Preview':
-        """Linearises a motion about a plan."""
+    def of(cls, plan: Plan, motion: Motion, stride: int, rates: Array | None = None) -> 'Preview':
+        """Linearises a motion about a plan.
+
+        Args:
+            plan: of the horizon.
+            motion: to linearise.
+            stride: samples of one step.
+            rates: of the state along the plan (n, 4), if they are known better than by `motion`.
+        """
+        rates = motion.rates(plan.state, plan.input) if rates is None else rates
         by_state, by_input = motion.linearised(plan.state, plan.input)
         by_twist = motion.disturbed(plan.state, plan.input)
         # the error of the plan acts like one more input that is always 1
-        inputs = np.concatenate([by_input, _missed(plan, motion)[:, :, None], by_twist], axis=-1)
+        inputs = np.concatenate([by_input, _missed(plan, rates)[:, :, None], by_twist], axis=-1)
         transition, effect = discretised(by_state, inputs, stride, plan.period)
         index = np.arange(len(plan.state))
         ahead = np.minimum(index + stride, len(index) - 1)
@@ -54,7 +62,6 @@ class Preview:
         )
 
 
-def _missed(plan: Plan, motion: Motion) -> Array:
-    """Rates of the model at the nominal minus those of the plan, (n, 4)."""
-    rates = motion.rates(plan.state, plan.input)
+def _missed(plan: Plan, rates: Array) -> Array:
+    """Rates of the model at the nominal (n, 4) minus those of the plan."""
     return np.asarray(rates - np.gradient(plan.state, plan.period, axis=0))

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from push_core.geometry import Array
+from push_core.physics import Slider
 
 from push_mpc.motion import TravelModel
 from push_mpc.plan import Placement, Plan
@@ -75,6 +76,9 @@ class Steering(Protocol):
 
         Does not touch the solvers, so it may run in another thread.
         """
+
+    def of_slider(self, slider: Slider) -> 'Steering':
+        """The same for another friction and support radius; itself if it does not use them."""
 
     def change(self, settings: ControllerSettings) -> None:
         """Uses other weights and speed limits; see `bounded` for plans that exist."""

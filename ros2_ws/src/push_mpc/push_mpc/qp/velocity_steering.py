@@ -37,6 +37,10 @@ class VelocitySteering:
         stages = Stages.of(SPACE, preview, self._limits(preview.contact, plan.input))
         return LinearisedPlan(plan, preview.contact, (stages,))
 
+    def of_slider(self, _slider: Slider) -> 'VelocitySteering':
+        """See `Steering.of_slider`; only its model knows friction and support radius."""
+        return self
+
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""
         self._settings = settings

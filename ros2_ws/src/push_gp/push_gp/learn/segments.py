@@ -1,0 +1,96 @@
+"""Cuts the measured motion of a lap into short pushes, in the format of training pushes."""
+
+import numpy as np
+from numpy.typing import NDArray
+from push_core.data import P_Y_LIMIT, PushSet
+from push_core.geometry import Array
+from push_core.physics import GRAZING, Slider
+
+CONTACT_GAP = 1e-3
+"""Largest measured gap [m] at which the tip is taken to push."""
+
+JUMP = np.array([2e-3, 0.03])
+"""Motion [m], [rad] of the object from one picture to the next that any push may make."""
+
+JUMP_RATIO = 5.0
+"""A larger motion is a jump if it is so many times the median: speed and noise set that."""
+
+
+def segments(object_poses: Array, tips: Array, slider: Slider, distance: float) -> PushSet:
+    """The pushes of a stretch of measurements, one after the other.
+
+    Samples without contact, and jumps of the object that no push explains, end a segment.
+
+    Args:
+        object_poses: (m, 3) in the order of time, world frame [m, m, rad].
+        tips: (m, 2) positions of the tip at the same times [m].
+        slider: geometry of slider and tip.
+        distance: travel of the tip in each push [m].
+    """
+    poses = np.array(object_poses, dtype=float).reshape(-1, 3)
+    poses[:, 2] = np.unwrap(poses[:, 2])
+    starts, ends = [], []
+    for run in _pushing_runs(poses, tips, slider):
+        moved = np.hypot(*np.diff(tips[run], axis=0).T)
+        travel = np.concatenate(([0.0], np.cumsum(moved)))
+        marks = np.arange(0.0, travel[-1], distance)
+        track = np.column_stack((poses[run], tips[run]))
+        at_marks = np.column_stack([np.interp(marks, travel, column) for column in track.T])
+        starts.append(at_marks[:-1])
+        ends.append(at_marks[1:])
+    if not starts:
+        return _empty(distance)
+    return _as_pushes(np.vstack(starts), np.vstack(ends), distance)
+
+
+def _pushing_runs(poses: Array, tips: Array, slider: Slider) -> list[slice]:
+    """Stretches of samples in which the tip pushed without an interruption."""
+    if len(poses) < 2:
+        return []
+    broken = interrupted(poses, tips, slider)
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], ~broken[1:], [0])).astype(int)))
+    return [slice(first, last + 1) for first, last in edges.reshape(-1, 2)]
+
+
+def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.bool_]:
+    """Samples (m,) which the push from the one before does not explain: no contact, a jump.
+
+    Args:
+        object_poses: (m, 3) in the order of time, headings without jumps of a turn.
+        tips: (m, 2) positions of the tip [m].
+        slider: geometry of slider and tip.
+    """
+    along, _ = _in_frame(object_poses, tips - object_poses[:, :2])
+    apart = slider.tip_x - along > CONTACT_GAP
+    steps = np.diff(object_poses, axis=0)
+    moved = np.stack(
+        [np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*np.diff(tips, axis=0).T)]
+    )
+    usual = JUMP_RATIO * np.median(moved, axis=1, keepdims=True)
+    jumps = (moved > np.maximum(usual, [[JUMP[0]], [JUMP[1]], [JUMP[0]]])).any(axis=0)
+    result = apart.copy()
+    result[1:] |= apart[:-1] | jumps
+    return result
+
+
+def _as_pushes(start: Array, end: Array, distance: float) -> PushSet:
+    """Pushes from rows [x, y, theta, tip x, tip y] at their starts and ends (n, 5)."""
+    forwards, aside = _in_frame(start, end[:, 3:] - start[:, 3:])
+    beta = np.arctan2(forwards, aside)
+    _, p_y = _in_frame(start, start[:, 3:] - start[:, :2])
+    moved = np.column_stack(_in_frame(start, end[:, :2] - start[:, :2]))
+    displacement = np.column_stack((moved, end[:, 2] - start[:, 2]))
+    good = (np.abs(p_y) < P_Y_LIMIT) & (beta > GRAZING) & (beta < np.pi - GRAZING)
+    good &= np.isfinite(displacement).all(axis=1)
+    return PushSet(p_y[good], beta[good], displacement[good], distance)
+
+
+def _in_frame(poses: Array, vectors: Array) -> tuple[Array, Array]:
+    """World vectors (n, 2) along and across the heading of poses (n, 3 or more)."""
+    cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    x, y = vectors.T
+    return cos * x + sin * y, cos * y - sin * x
+
+
+def _empty(distance: float) -> PushSet:
+    return PushSet(np.empty(0), np.empty(0), np.empty((0, 3)), distance)

@@ -1,0 +1,72 @@
+"""Iterative learning of the reference: each lap shifts it against the error of the last one.
+
+What recurs in every lap at the same place, such as friction that varies over the table, needs no
+model. Source: Bristow, Tharayil and Alleyne 2006, with a zero-phase filter over the path.
+"""
+
+import numpy as np
+from push_core.geometry import Array
+
+from push_mpc.plan.nominal import Plan
+
+GAIN = 0.6
+"""Share of the last error that the next lap is shifted by."""
+
+SMOOTHED = 0.02
+"""Length of path [m] over which the error is averaged (half the width of a Hann window)."""
+
+LARGEST = 0.01
+"""Largest shift of the reference [m] along each axis."""
+
+_LEAST = 0.05  # share of the window that must have been measured for a place to learn
+
+
+class ReferenceShift:
+    """Learns a shift of the reference over one lap.
+
+    Attributes:
+        shift: (n, 2) [m] at every sample of the lap, in the frame of the track.
+    """
+
+    def __init__(self, plan: Plan, laps: int) -> None:
+        """Starts from none.
+
+        Args:
+            plan: of all laps.
+            laps: of the plan.
+        """
+        self._lap = plan.duration / laps
+        count = round(self._lap / plan.period)
+        self.shift = np.zeros((count, 2))
+        speed = float(np.hypot(*np.diff(plan.state[:2, :2], axis=0)[0])) / plan.period
+        half = max(1, round(SMOOTHED / speed / plan.period))
+        self._window = np.hanning(2 * half + 3)[1:-1]
+
+    def learn(self, times: Array, errors: Array) -> None:
+        """Shifts the reference against the errors of a lap; places without one learn nothing.
+
+        Args:
+            times: (m,) of the reference [s].
+            errors: (m, 2) of the object's position at these times [m], in the frame of the track.
+        """
+        errors, known = self._binned(times, errors)
+        seen = self._smooth(known)
+        mean = self._smooth(errors) / np.maximum(seen, _LEAST)
+        taught = np.minimum(seen / _LEAST, 1.0)
+        self.shift = np.clip(self.shift - GAIN * taught * mean, -LARGEST, LARGEST)
+
+    def _binned(self, times: Array, errors: Array) -> tuple[Array, Array]:
+        """Sums of the errors (n, 2) and number of them (n, 1) at every sample of the lap."""
+        sums, counts = np.zeros_like(self.shift), np.zeros((len(self.shift), 1))
+        rows = (times / self._lap * len(self.shift)).astype(int) % len(self.shift)
+        np.add.at(sums, rows, errors)
+        np.add.at(counts, rows, 1.0)
+        return sums, counts
+
+    def _smooth(self, values: Array) -> Array:
+        """Averages (n, k) over the window; the lap is closed."""
+        share = self._window / self._window.sum()
+        half = len(share) // 2
+        rows = np.arange(-half, len(values) + half) % len(values)
+        columns = [np.convolve(column, share, 'valid') for column in values[rows].T]
+        return np.stack(columns, axis=-1)
