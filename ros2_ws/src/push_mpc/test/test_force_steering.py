@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from push_core.physics.limit_surface import LimitSurface
-from push_core.physics.motion_cone import ContactMode
+from push_core.physics.motion_cone import ContactMode, MotionCone
 from push_core.tracks.built_in import by_name
 from push_mpc.loop.controller import Mode, horizon_stride
 from push_mpc.motion.contact_force import ContactForce
@@ -77,7 +77,7 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     family, plan = steering
     stride = horizon_stride(plan, SETTINGS)
     window = stride * np.arange(SETTINGS.horizon_steps)
-    linearised = family.linearised(None, plan, stride)
+    linearised = family.linearised(MotionCone(SETTINGS.slider), plan, stride)
     family.prepare(linearised, window)
     deviation = np.array([0.0, 0.0, 0.0, p_y])
     state = plan.state[0] + deviation
@@ -90,7 +90,7 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
 
 def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     family, plan = steering
-    stages = family.linearised(None, plan, 3).stages
+    stages = family.linearised(MotionCone(SETTINGS.slider), plan, 3).stages
     assert len(stages) == len(FAMILY) == 3
     assert all(np.array_equal(other.entries, stages[0].entries) for other in stages)
     widths = [stage.high[0] - stage.low[0] for stage in stages]
@@ -105,7 +105,7 @@ def test_the_tip_is_never_faster_than_the_limit_wherever_it_touches(slider, p_y)
     for limit in (2.0, 0.1):
         family = ForceSteering(replace(SETTINGS, normal_speed_limit=limit), slider)
         stride = horizon_stride(plan, SETTINGS)
-        linearised = family.linearised(None, plan, stride)
+        linearised = family.linearised(MotionCone(SETTINGS.slider), plan, stride)
         family.prepare(linearised, stride * np.arange(SETTINGS.horizon_steps))
         state, sent = plan.state[0] + behind, plan.input[0]
         move = family.solve(linearised, state, behind, 0.0, 0.0, np.zeros(3), sent)
