@@ -10,17 +10,19 @@ from push_gp.models.analytical_model import AnalyticalModel
 from push_gp.models.gp_model import GpModel
 from push_gp.models.mean_function import ConeMean, ZeroMean
 from push_gp.models.model import PushModel
+from push_gp.models.smooth_cone import SmoothCone
 from push_gp.training.fit_cone import fitted_cone
 from push_gp.training.train import train
 
 Queries = tuple[np.ndarray, np.ndarray]
 
 
-@pytest.fixture(params=['gp', 'gp over the cone', 'cone'])
+@pytest.fixture(params=['gp', 'gp over the cone', 'cone', 'smooth cone'])
 def any_model(request: pytest.FixtureRequest, model: GpModel, pushes: PushSet) -> PushModel:
     if request.param == 'gp':
         return model
-    return AnalyticalModel() if request.param == 'cone' else train(pushes, 'analytical')
+    cones = {'cone': AnalyticalModel(), 'smooth cone': SmoothCone()}
+    return cones.get(request.param) or train(pushes, 'analytical')
 
 
 def test_the_jacobian_is_that_of_central_differences(
@@ -106,9 +108,11 @@ def test_whatever_changes_an_answer_changes_the_hash(
             AnalyticalModel(),
             AnalyticalModel(Slider(friction_pusher=0.2)),
             AnalyticalModel(distance=0.005),
+            SmoothCone(),
+            SmoothCone(Slider(friction_pusher=0.2)),
         )
     }
-    assert len(hashes) == 8
+    assert len(hashes) == 10
 
 
 def test_the_info_states_the_domain_of_the_pushes(model: GpModel, pushes: PushSet) -> None:

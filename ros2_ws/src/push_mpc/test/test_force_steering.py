@@ -88,6 +88,13 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     assert np.sign(np.round(force[2], 6)) == expected
 
 
+def test_another_friction_is_another_controller_and_the_same_is_itself(steering, slider) -> None:
+    family, _ = steering
+    assert family.of_slider(slider) is family
+    other = family.of_slider(replace(slider, friction_pusher=0.5))
+    assert other.of_slider(slider) is not other
+
+
 def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     family, plan = steering
     stages = family.linearised(MotionCone(SETTINGS.slider), plan, 3).stages

@@ -40,6 +40,14 @@ def test_a_plan_that_fits_its_model_has_no_drift(eight, slider) -> None:
     assert np.abs(drift[200:900, :, 0]).max() < 1e-7
 
 
+def test_a_motion_that_is_known_better_replaces_that_of_the_derivatives(eight, slider) -> None:
+    motion = TravelMotion(MotionCone(slider), slider.tip_x)
+    own = np.gradient(eight.state, eight.period, axis=0)
+    known = Preview.of(eight, motion, STRIDE, rates=own)
+    assert np.abs(known.drift[:, :, 0]).max() < 1e-12
+    assert np.array_equal(known.transition, Preview.of(eight, motion, STRIDE).transition)
+
+
 def test_a_round_tip_rolls_along_the_face(eight, slider, preview) -> None:
     omega = np.gradient(eight.state[:, 2], eight.period)
     rolled = STRIDE * eight.period * omega * slider.tip_radius
