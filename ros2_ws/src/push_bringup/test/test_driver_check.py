@@ -42,7 +42,7 @@ def test_a_tip_may_be_measured_more_often() -> None:
     ('poses', 'point'),
     [
         (heard(0.05), 'object_pose arrives'),
-        (heard(rate=80.0), 'object_pose rate'),
+        (heard(rate=8.0), 'object_pose rate'),
         (heard(stamp=np.repeat(heard().stamp[::2], 2)), 'object_pose stamps'),
         (heard(frames=['map'] * 300), 'object_pose frame, units, age'),
         (heard(place=(100.0, 0.0)), 'object_pose frame, units, age'),

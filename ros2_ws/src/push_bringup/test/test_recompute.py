@@ -36,7 +36,7 @@ def parameters(model_file):
 
 @pytest.fixture(scope='module')
 def eventful(parameters, model_file, tmp_path_factory):
-    """A run that waits for a late pose, is stopped, released and started once more."""
+    """A run that goes on without a pose, waits for one, is stopped, and started once more."""
     folder = tmp_path_factory.mktemp('recorded') / 'run'
     attached = {
         'params.yaml': parameters.as_yaml().encode(),
@@ -61,7 +61,11 @@ def _push(cell, record):
         events.get(number, lambda: None)()
         seen, now = (nanoseconds(time) - origin for time in (observation.time, plant.time))
         poses = observation.object_pose, observation.tip_position
-        if number in {40, 80}:
+        if number in {30, 31}:
+            tick = controller.coast(to_seconds(now))
+            record.tick(None, tick, 0.0)
+            controller.prepare_next()
+        elif number in {40, 80}:
             tick = controller.hold(to_seconds(now))
             record.controller_tick(tick, origin + now + 1, 0.0)
         else:

@@ -155,6 +155,51 @@ def test_holding_for_want_of_a_pose_is_still_and_foreseen(tracking) -> None:
     assert np.hypot(*(tick.predicted[:2] - tick.state[:2])) < 2e-3
 
 
+def test_without_a_pose_it_goes_on_as_predicted_and_holds_when_poses_are_too_old(
+    tracking,
+) -> None:
+    limit = tracking.controller.settings.pose_timeout
+    now, seen = tracking.plant.time - tracking.plant.START, tracking.seen
+    exposure = seen.time - tracking.plant.START - 0.01
+    ticks = []
+    while now - exposure < limit + 0.05:
+        ticks.append(tracking.controller.coast(now))
+        tracking.controller.prepare_next()
+        now += 0.01
+    going = [tick for tick in ticks if tick.now - exposure <= limit]
+    held = [tick for tick in ticks if tick.now - exposure > limit]
+    assert {tick.mode for tick in going} == {Mode.TRACKING}
+    assert {tick.mode for tick in held} == {Mode.HOLDING}
+    speeds = [np.hypot(*tick.velocity) for tick in going]
+    assert speeds == pytest.approx([0.08] * len(going), rel=0.2)
+    # the prediction begins at the newest pose, wherever now is
+    moved = np.hypot(*(going[-1].predicted[:2] - going[0].predicted[:2]))
+    assert moved == pytest.approx(0.08 * 0.01 * (len(going) - 1), rel=0.2)
+    assert all(np.isnan(tick.exposure) and tick.state is None for tick in ticks)
+
+
+def test_with_half_of_the_pictures_lost_it_tracks_as_well(tracking) -> None:
+    random, errors = np.random.default_rng(0), []
+    for _ in range(300):
+        if random.random() < 0.5:
+            now = tracking.plant.time - tracking.plant.START
+            tick = tracking.controller.coast(now)
+            tracking.plant.command(tick.velocity, tracking.plant.time)
+            tracking.seen = tracking.plant.step()
+            continue
+        tick = tracking.tick()
+        reference, _ = tracking.controller.plan.at(tick.reference_time)
+        errors.append(math.hypot(*(tick.state[:2] - reference[:2])))
+    assert np.mean(errors) < 0.5e-3
+
+
+def test_without_poses_only_a_run_goes_on(cell) -> None:
+    controller = cell.controller
+    assert (controller.coast(0.0).mode, is_still(controller.coast(0.01))) == (Mode.ARMED, True)
+    controller.stop('on request')
+    assert is_still(controller.coast(0.02))
+
+
 def test_holding_before_the_first_pose_does_not_confuse_the_prediction(cell) -> None:
     # time has no origin yet: the present is a date
     cell.controller.hold(1.7e9)

@@ -196,6 +196,32 @@ def test_jitter_adds_up_to_itself_to_the_age_of_a_picture(slider, start) -> None
     np.testing.assert_allclose(places, 0.0, atol=1e-4)
 
 
+def test_a_webcam_shows_thirty_pictures_a_second_40_ms_old_give_or_take_ten(slider, start) -> None:
+    plant = Plant(profile('webcam'), slider)
+    seen = [plant.reset(*start, 0)]
+    ages, errors = [], []
+    for _ in range(3000):
+        picture = plant.step()
+        if picture is not None:
+            seen.append(picture)
+            ages.append(plant.time - picture.time)
+            errors.append(picture.object_pose - picture.truth.object_pose)
+    assert len(ages) == pytest.approx(0.98 * 900, abs=15)
+    assert (min(ages), max(ages)) == pytest.approx((0.03, 0.05), abs=1e-9)
+    assert np.mean(ages) == pytest.approx(0.04, abs=1e-3)
+    assert np.std(errors, axis=0) == pytest.approx([1e-3, 1e-3, np.radians(1.0)], rel=0.1)
+    assert (np.diff([picture.time for picture in seen]) > 0.0).all()
+
+
+def test_what_stands_for_a_missing_picture_has_a_stamp_of_its_own(slider, start) -> None:
+    plant = Plant(profile('webcam'), slider)
+    times = [plant.reset(*start, 0).time]
+    for _ in range(1000):
+        times.append((plant.step() or plant.without_picture()).time)
+    assert len({round(1e9 * time) for time in times}) == len(times)
+    assert not plant.without_picture().shows_object
+
+
 def test_a_lost_picture_is_none_and_the_next_one_is_found(slider, start) -> None:
     plant = Plant(replaced(profile('ideal'), {'sensor.dropout': 0.5}), slider)
     assert plant.reset(*start, 0) is not None

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from push_core.common.errors import InputError
 from push_sim.plant.sensor import FREEZE_DURATION, Observation, Sensor
 from push_sim.settings.plant_settings import SensorSettings
 
@@ -95,6 +96,30 @@ def test_the_pose_stands_still_for_a_tenth_of_a_second_at_the_stated_rate() -> N
     assert set((ends - begins + 1).tolist()) == {round(FREEZE_DURATION / 0.01) - 1}
     moving_time = 0.01 * (~frozen).sum()
     assert len(begins) / moving_time == pytest.approx(0.5, rel=0.15)
+
+
+@pytest.mark.parametrize('rate', [100.0, 60.0, 30.0, 25.0])
+def test_pictures_come_at_the_stated_rate(rate: float) -> None:
+    settings = SensorSettings(rate=rate)
+    sensor = Sensor(settings)
+    sensor.reset(np.random.default_rng(0))
+    for number in range(200):
+        sensor.expose(0.01 * number, POSE, TIP)
+    periods = [period for period in range(101) if sensor.show() is not None]
+    assert len(periods) == round(rate) + 1
+    assert np.diff(periods).min() == round(settings.shortest_interval / 0.01)
+    # as soon as the period allows
+    due = np.arange(len(periods)) / rate
+    assert (np.round(0.01 * np.array(periods) - due, 9) >= 0.0).all()
+    assert (0.01 * np.array(periods) - due < 0.01 - 1e-9).all()
+
+
+def test_jitter_may_not_change_the_order_of_the_pictures() -> None:
+    SensorSettings(rate=30.0, jitter=0.029)
+    with pytest.raises(InputError, match=r'sensor.jitter is 0.03, must be less than .* 0.03 s'):
+        SensorSettings(rate=30.0, jitter=0.03)
+    with pytest.raises(InputError, match=r'sensor.jitter is 0.01, must be less than .* 0.01 s'):
+        SensorSettings(jitter=0.01)
 
 
 def test_a_frozen_pose_keeps_its_true_stamps() -> None:

@@ -1,4 +1,7 @@
-"""Position of the tip relative to the pushed face, from the recorded poses.
+"""Position of the tip relative to the pushed face.
+
+From the recorded poses; that of the object is the true one where it was recorded, for noise would
+look like losses of contact.
 
     gap = -side/2 - tip radius - x of the tip in the body frame (0 in contact),
     p_y = y of the tip in the body frame.
@@ -34,15 +37,16 @@ class Contact:
 
 def contact(run: RunSeries, reference: Reference) -> Contact:
     """Gap and contact offset of a run during tracking."""
-    index, exists = run.pusher.near(run.object.stamp)
-    used = exists & during_tracking(run, run.object.stamp)
-    used &= np.isfinite(run.object.values).all(axis=1)
+    known = run.truth if run.truth.stamp.size else run.object
+    index, exists = run.pusher.near(known.stamp)
+    used = exists & during_tracking(run, known.stamp)
+    used &= np.isfinite(known.values).all(axis=1)
     if run.pusher.stamp.size:
         used &= np.isfinite(run.pusher.values[index]).all(axis=1)
-    pose, tip = run.object.values[used], run.pusher.values[index[used]]
+    pose, tip = known.values[used], run.pusher.values[index[used]]
     x_body, y_body = points_to_body(pose, tip).T
     gap = -reference.side / 2.0 - reference.tip_radius - x_body
-    return Contact(run.object.stamp[used], gap, y_body)
+    return Contact(known.stamp[used], gap, y_body)
 
 
 def loss_intervals(contact: Contact) -> list[tuple[int, int]]:

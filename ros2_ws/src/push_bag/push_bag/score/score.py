@@ -74,7 +74,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         )
     tracking, truth = tracking_errors(run, run.reference), true_tracking_errors(run, run.reference)
     score = {
-        **_verdict(run, run.reference, tracking),
+        **_verdict(run, run.reference, truth or tracking),
         **_setting(run, run.reference),
         **_errors(tracking),
         'truth': None if truth is None else _distances(truth),
@@ -94,7 +94,10 @@ def score_series(run: RunSeries) -> dict[str, Any]:
 
 
 def completed(run: RunSeries, reference: Reference, tracking: Tracking) -> bool | None:
-    """Whether the run was completed, see `push_core.tracks.is_completed`; None if unknown."""
+    """Whether the run was completed, see `push_core.tracks.is_completed`; None if unknown.
+
+    Judged by the true poses where they were recorded.
+    """
     if foreign_commands(run):
         return False
     modes = run.state('mode')

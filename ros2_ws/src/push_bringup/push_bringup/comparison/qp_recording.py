@@ -36,7 +36,7 @@ def recorded_problems(controller: str, model: str, seed: int) -> list[tuple[Prob
     problems: list[tuple[Problem, ...]] = []
     with tqdm(total=cell.controller.plan.time.size, desc='recording', disable=None) as bar:
 
-        def on_tick(_observation: Observation, tick: Tick, _tick_ms: float) -> None:
+        def on_tick(_observation: Observation | None, tick: Tick, _tick_ms: float) -> None:
             if tick.mode == Mode.TRACKING:
                 problems.append(cell.controller.problems)
                 _kick(cell, len(problems))

@@ -17,7 +17,7 @@ from push_gp.learn import Identified
 from push_gp.models import model_named
 from push_mpc.loop import FOLLOWING, Tick
 from push_mpc.plan import planned
-from push_sim.plant import Observation
+from push_sim.plant import Observation, TrueState
 
 from push_bringup.experiment.experiment import LapJob
 from push_bringup.in_process import InProcessCell
@@ -49,7 +49,7 @@ class Lap:
     """The outcome of a run of one lap or more.
 
     Attributes:
-        completed: see `push_core.tracks.is_completed`.
+        completed: see `push_core.tracks.is_completed`; by the true poses.
         stop_reason: reason of an early stop, else empty.
         mean_mm, max_mm: tracking error of the measured poses; up to the stop, if it stopped.
         truth_mean_mm: mean tracking error of the true poses.
@@ -107,11 +107,12 @@ class _LapRecorder:
         self._truth_errors: list[float] = []
         self._path: list[tuple[float, float]] = []
         self._commands: list[Array] = []
-        self._last: Tick | None = None
+        self._slider = cell.plant.slider
+        self._last: TrueState | None = None
 
-    def on_tick(self, observation: Observation, tick: Tick, _tick_ms: float) -> None:
-        """Takes one tick."""
-        if tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
+    def on_tick(self, observation: Observation | None, tick: Tick, _tick_ms: float) -> None:
+        """Takes one tick; errors are those at the exposures."""
+        if observation is None or tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
             return
         reference = self._plan.at(tick.reference_time)[0][:2]
         self._times.append(tick.reference_time)
@@ -120,19 +121,20 @@ class _LapRecorder:
         self._truth_errors.append(_distance_mm(observation.truth.object_pose[:2], reference))
         self._path.append((round(x, 2), round(y, 2)))
         self._commands.append(tick.velocity)
-        self._last = tick
+        self._last = observation.truth
 
     def lap(self, reason: str, side: float) -> Lap:
         """The lap, with why it stopped and the side of the square [m]."""
-        if self._last is None or self._last.state is None:
+        if self._last is None:
             return Lap(
                 False, reason or 'never tracked', math.inf, math.inf, math.inf, 0.0, (), (), ()
             )
+        end = self._last.object_pose, self._last.tip_position
         completed = is_completed(
             arrived=not reason,
-            distance=1e-3 * self._errors[-1],
-            gap=self._last.gap,
-            contact_offset=self._last.state[3],
+            distance=1e-3 * self._truth_errors[-1],
+            gap=self._slider.gap(*end),
+            contact_offset=self._slider.contact_offset(*end),
             side=side,
         )
         step = -(-len(self._path) // PATH_POINTS)

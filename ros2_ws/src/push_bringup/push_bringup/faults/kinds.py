@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable
 
 from geometry_msgs.msg import Pose, PoseStamped, TwistStamped
+from push_mpc.settings import MpcSettings
 from push_msgs.srv import AddPushes
 from push_node import interface
 from push_node.endpoints import GraphTopic
@@ -20,7 +21,7 @@ from push_bringup.faults.case import Fault, Outcome
 from push_bringup.faults.relay import Spoil
 from push_bringup.graph import MODULES
 
-POSE_TIMEOUT = 0.03  # [s], parameter pose_timeout
+POSE_TIMEOUT = MpcSettings().pose_timeout
 WATCHDOG = 0.05  # [s], parameter command_timeout
 RECORDER_SILENCE = 2.6  # [s] from the end of the recorder to the stop
 GRAPH_LOOK = 0.7  # [s] from a second publisher to the stop

@@ -17,7 +17,7 @@ from push_bringup.setup import CellParameters
 
 # a thread of the progress bar would take the Ctrl-C that the controller holds while it solves
 tqdm.monitor_interval = 0
-OnTick = Callable[[Observation, Tick, float], None]
+OnTick = Callable[[Observation | None, Tick, float], None]
 
 
 class InProcessCell:
@@ -67,7 +67,8 @@ class InProcessCell:
         """Pushes once along the track, from a start of its own unless `start` was called.
 
         Args:
-            on_tick: called with every observation, the controller's tick and its duration [ms].
+            on_tick: called with the observation of each period, None without one, the
+                controller's tick and its duration [ms].
 
         Returns:
             Reason of an early stop, else an empty string.
@@ -75,21 +76,24 @@ class InProcessCell:
         if self._first is None:
             self.start()
         assert self._first is not None
-        observation, self._first = self._first, None
-        origin = nanoseconds(observation.time)
+        first, self._first = self._first, None
+        observation: Observation | None = first
+        origin = nanoseconds(first.time)
         while self.controller.mode not in (Mode.DONE, Mode.STOPPED, Mode.FAULT):
             started = time.perf_counter()
-            tick = self.controller.step(
-                observation.object_pose,
-                observation.tip_position,
-                to_seconds(nanoseconds(observation.time) - origin),
-                to_seconds(nanoseconds(self.plant.time) - origin),
-            )
+            now = to_seconds(nanoseconds(self.plant.time) - origin)
+            if observation is None:
+                tick = self.controller.coast(now)
+            else:
+                exposure = to_seconds(nanoseconds(observation.time) - origin)
+                pose, tip = observation.object_pose, observation.tip_position
+                tick = self.controller.step(pose, tip, exposure, now)
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
-            self._learn(observation, tick)
+            if observation is not None:
+                self._learn(observation, tick)
             self.controller.prepare_next()
             self.plant.command(tick.velocity, self.plant.time)
-            observation = self.plant.step_until_seen()
+            observation = self.plant.step()
         return self.controller.stop_reason
 
     def _learn(self, observation: Observation, tick: Tick) -> None:

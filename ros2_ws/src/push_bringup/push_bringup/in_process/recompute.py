@@ -91,7 +91,7 @@ class RecomputingController(Controller):
     def command_at(self, tick: RecordedTick) -> Array | None:
         """The command at a recorded tick (2,) [m/s]; None where a pose is missing."""
         velocity = self.answer(tick)
-        if velocity is not None and not math.isnan(tick.exposure):
+        if velocity is not None:
             self.prepare_next()
         return velocity
 
@@ -136,7 +136,8 @@ class RecomputingController(Controller):
     def _without_poses(self, tick: RecordedTick) -> Array:
         if tick.stop_reason:
             self.stop(tick.stop_reason)
-        return self.hold(tick.now).velocity
+        go_on = self.hold if tick.mode == Mode.HOLDING else self.coast
+        return go_on(tick.now).velocity
 
 
 def _compared(run: RecordedRun, controller: RecomputingController, paired: int) -> Recomputed:

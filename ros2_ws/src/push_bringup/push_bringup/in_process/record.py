@@ -49,13 +49,15 @@ class InProcessRecord:
         self._write(interface.NOMINAL_TRAJECTORY, plan)
         self._write(interface.MODEL_INFO, model_info_message(info, stamp))
 
-    def tick(self, observation: Observation, tick: Tick, tick_ms: float) -> None:
+    def tick(self, seen: Observation | None, tick: Tick, tick_ms: float) -> None:
         """Writes one tick: measurement, ground truth, command and state of the controller."""
+        observation = seen or self._plant.without_picture()
         stamp_ns = nanoseconds(observation.time)
         stamp = to_stamp(stamp_ns)
         self._write(interface.PUSHER_POSE, sim.position_message(observation.tip_position, stamp))
         self._write(interface.OBJECT_POSE, sim.pose_message(observation.object_pose, stamp))
-        self._write(interface.GROUND_TRUTH, self._truth.of(observation.truth, stamp))
+        if seen is not None:
+            self._write(interface.GROUND_TRUTH, self._truth.of(observation.truth, stamp))
         for applied in self._plant.take_perturbations():
             happened = to_stamp(nanoseconds(applied.time))
             self._write(interface.PERTURBATION, sim.perturbation_message(applied, happened))

@@ -31,7 +31,7 @@ def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan
         record = InProcessRecord(writer, cell.plant, cell.controller)
         record.head(parameters.mpc, model.info)
 
-        def on_tick(observation: Observation, tick: Tick, tick_ms: float) -> None:
+        def on_tick(observation: Observation | None, tick: Tick, tick_ms: float) -> None:
             record.tick(observation, tick, tick_ms)
             bar.update(min(max(tick.reference_time, bar.n), duration) - bar.n)
 

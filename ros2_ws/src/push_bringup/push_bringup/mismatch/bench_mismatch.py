@@ -23,9 +23,9 @@ from push_bringup.setup import model_for
 EPILOG = """Examples: bench mismatch --rows home rim friction_0.6 --seeds 2
           bench mismatch --rows rim varies_0.2 --seeds 1 --laps 6 --learn
 Errors are those of the true poses, medians of the completed runs: of several laps the first → the
-second → the last. Profile irb120, the default
-model of the gp controller, and one set of parameters for all plants. In process: 12 minutes of
-processor time with 5 seeds.
+second → the last. Profile irb120 unless the row says another, the default model of the gp
+controller, and one set of parameters for all plants. In process: 12 minutes of processor time with
+5 seeds.
 Exit status: 0 every lap was completed, 1 one was not, 2 the command was wrong.
 """
 
@@ -98,7 +98,7 @@ def _jobs(cases: Sequence[tuple[str, str]], arguments: argparse.Namespace) -> li
             PLANTS[name].experiment,
             controller,
             models[controller],
-            'irb120',
+            PLANTS[name].profile,
             seed,
             PLANTS[name].overrides,
             arguments.laps,

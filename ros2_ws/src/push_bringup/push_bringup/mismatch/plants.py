@@ -26,11 +26,13 @@ class PlantVariant:
         text: how it differs.
         overrides: parameters that make the difference, as `cell -p` takes them.
         experiment: what is pushed on it.
+        profile: of robot and cameras.
     """
 
     text: str
     overrides: Mapping[str, object] = field(default_factory=dict)
     experiment: Experiment = _EIGHT
+    profile: str = 'irb120'
 
 
 def _world(text: str, name: str, value: object) -> PlantVariant:
@@ -75,6 +77,7 @@ PLANTS: Mapping[str, PlantVariant] = {
     'larger': _world('object 10 % larger', 'size_error', 0.1),
     'noise_0.5': _noise(0.5, 0.5),
     'noise_1': _noise(1.0, 1.0),
+    'webcam': PlantVariant('profile webcam', profile='webcam'),
     'half_lost': PlantVariant('half of the pictures lost', {'sensor.dropout': 0.5}),
     'dead_time_20': _robot('dead time', 'dead_time', 20),
     'dead_time_120': _robot('dead time', 'dead_time', 120),

@@ -44,6 +44,7 @@ class ActuatorSettings:
 ACTUATORS = {
     'irb120': ActuatorSettings(),
     'harsh': ActuatorSettings(),
+    'webcam': ActuatorSettings(),
     'ideal': ActuatorSettings(dead_time=0.0, lag=0.0, acceleration_limit=100.0),
 }
 

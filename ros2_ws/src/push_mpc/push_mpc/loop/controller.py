@@ -10,7 +10,7 @@ from push_core.common import InterruptsHeld
 from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit, slowed
 
-from push_mpc.estimate import DisturbanceEstimator, Predictor
+from push_mpc.estimate import ObjectFilter, Predictor
 from push_mpc.loop.guard import Guard
 from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
 from push_mpc.loop.prepared_model import PreparedModel
@@ -43,7 +43,7 @@ class Controller:
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider, settings.command_timeout)
         self._guard = Guard(settings, slider)
-        self._disturbance = DisturbanceEstimator(settings.disturbance_length, slider)
+        self._filter = ObjectFilter(settings.disturbance_length, slider)
         self._steering = _steering(settings, slider)
         # OSQP has a handler of its own while it solves
         self._interrupts_held = InterruptsHeld()
@@ -56,6 +56,7 @@ class Controller:
         self._placement: Placement | None = None
         self._sent = _STILL
         self._seen = 0
+        self._tip, self._exposure = _STILL, -math.inf
         self._reference = ReferenceClock()
         self._failures_in_a_row = 0
         self.solver_failures = 0
@@ -146,9 +147,8 @@ class Controller:
             self._prepare(self._model, sample)
             if self.mode not in FOLLOWING:
                 self._warm_up()
-        self._disturbance.length = settings.disturbance_length
-        if settings.disturbance_length == 0.0:
-            self._disturbance.reset()
+        if settings.disturbance_length != self._filter.length:
+            self._filter.change(settings.disturbance_length)
 
     def arm(self, start: Array | None = None) -> None:
         """Holds the tip at rest until enough poses have arrived, then tracks the plan.
@@ -164,7 +164,8 @@ class Controller:
         self._reference.reset()
         self._failures_in_a_row = 0
         self._predictor.reset()
-        self._disturbance.reset()
+        self._filter.reset()
+        self._exposure = -math.inf
         self._guard.reset()
         self._warm_up()
 
@@ -197,6 +198,17 @@ class Controller:
         self._machine.take(Event.LATE)
         return self._slow_down(Tick(self.mode, _STILL, now=now), now)
 
+    def coast(self, now: float) -> Tick:
+        """One tick at a time [s] without new poses: continues with the newest estimate.
+
+        Poses older than `pose_timeout` no longer serve; then it holds.
+        """
+        if self.mode not in FOLLOWING or now - self._exposure > self.settings.pose_timeout:
+            return self.hold(now)
+        tick = self._commanded(self._follow(now), now)
+        tick.now = now
+        return tick
+
     def resume(self) -> None:
         """Releases a stop."""
         self._machine.take(Event.RESUME)
@@ -224,11 +236,38 @@ class Controller:
         if self.mode == Mode.ARMED:
             self._count_poses(now)
         self._machine.take(Event.POSE)
-        late = self._reference.is_late(exposure, self.settings.guard.catch_up)
+        patience = max(self.settings.guard.catch_up, self.settings.pose_timeout)
+        late = self._reference.is_late(exposure, patience)
         if late and self.mode in FOLLOWING:
             acts_at = now + self._predictor.horizon
             self._reference.go_on(self.plan, object_pose[:2], exposure, acts_at)
-        tick = self._follow(object_pose, tip, exposure, now)
+        running = self.mode in FOLLOWING
+        self._see(object_pose, tip, exposure)
+        tick = self._commanded(self._follow(now), now)
+        tick.state = self._state(object_pose, tip)
+        tick.gap = self._slider.gap(object_pose, tip)
+        if running:
+            tick.reference_time = self._reference.at(exposure)
+            tick.innovation = self._filter.innovation
+            tick.innovation_deviation = self._filter.deviation
+        return tick
+
+    def _see(self, object_pose: Array, tip: Array, exposure: float) -> None:
+        """Updates the estimate, and ends a run that is over or cannot go on."""
+        self._tip, self._exposure = tip, exposure
+        if self.mode == Mode.ARMED:
+            self._filter.settle(object_pose, tip, exposure)
+        if self.mode not in FOLLOWING or self._model is None:
+            return
+        self._filter.observe(self._model.table, object_pose, tip, exposure)
+        reference_time = self._reference.at(exposure)
+        if reference_time >= self.plan.duration:
+            self._machine.take(Event.END)
+        else:
+            self._watch(object_pose, tip, reference_time, exposure)
+
+    def _commanded(self, tick: Tick, now: float) -> Tick:
+        """The tick with what its mode permits as command, which the predictor remembers."""
         if self.mode not in FOLLOWING:
             return self._slow_down(tick, now)
         self._remember(tick.velocity, now)
@@ -273,30 +312,21 @@ class Controller:
             self._machine.take(Event.READY)
             self._reference.start = now + self._predictor.horizon
 
-    def _follow(self, object_pose: Array, tip: Array, exposure: float, now: float) -> Tick:
-        """Predicts, tracks the reference and limits the command."""
+    def _follow(self, now: float) -> Tick:
+        """Predicts from the newest estimate, tracks the reference and limits the command."""
         if self.mode not in FOLLOWING or self._model is None:
-            return Tick(self.mode, _STILL, state=self._state(object_pose, tip))
-        reference_time = self._reference.at(exposure)
-        if reference_time >= self.plan.duration:
-            self._machine.take(Event.END)
-        else:
-            self._watch(object_pose, tip, reference_time, exposure)
-        self._disturbance.observe(self._model.table, object_pose, tip)
-        pose, tip_then, acts_at = object_pose, tip, exposure
+            return Tick(self.mode, _STILL)
+        pose, tip, acts_at = self._filter.pose, self._tip, self._exposure
         if self.settings.delay_compensation:
             acts_at = now + self._predictor.horizon
-            pose, tip_then = self._predictor.predict(
-                self._model.table, self._disturbance.rate, object_pose, tip, exposure, acts_at
+            pose, tip = self._predictor.predict(
+                self._model.table, self._filter.rate, pose, tip, self._exposure, acts_at
             )
-        predicted, gap = self._state(pose, tip_then), self._slider.gap(pose, tip_then)
-        self._watch_contact(object_pose, tip, gap)
+        predicted, gap = self._state(pose, tip), self._slider.gap(pose, tip)
+        self._watch_contact(gap)
         tick = self._move(predicted, gap, self._reference.at(acts_at))
-        tick.reference_time = reference_time
-        tick.state = self._state(object_pose, tip)
-        tick.gap = self._slider.gap(object_pose, tip)
-        tick.disturbance = self._disturbance.rate
-        self._limit(tick, predicted[2], tip)
+        tick.disturbance, tick.estimate = self._filter.rate, self._filter.pose
+        self._limit(tick, predicted[2], self._tip)
         return tick
 
     def _watch(
@@ -309,18 +339,17 @@ class Controller:
         if fault:
             self.stop(fault)
 
-    def _watch_contact(self, object_pose: Array, tip: Array, gap: float) -> None:
-        """Switches between tracking and recontact; `gap` [m] is the predicted one."""
-        if self.mode not in FOLLOWING:
-            return
-        seen = self._slider.gap(object_pose, tip)
-        left = departure(self._slider, seen, self._slider.contact_offset(object_pose, tip))
+    def _watch_contact(self, predicted_gap: float) -> None:
+        """Switches between tracking and recontact, by the estimated and the predicted gap [m]."""
+        pose, tip = self._filter.pose, self._tip
+        gap = self._slider.gap(pose, tip)
+        left = departure(self._slider, gap, self._slider.contact_offset(pose, tip))
         if left:
             self.stop(left)
             return
         was_apart = self.mode == Mode.RECONTACT
         # the smaller of both: a gap that is closing, or only predicted, needs no approach
-        apart = is_apart(self.settings.recontact, min(seen, gap), was_apart)
+        apart = is_apart(self.settings.recontact, min(gap, predicted_gap), was_apart)
         self._machine.take(Event.APART if apart else Event.TOUCH)
 
     def _move(self, predicted: Array, gap: float, reference_time: float) -> Tick:
@@ -375,7 +404,7 @@ class Controller:
                     deviation,
                     reference_time,
                     widening,
-                    self._disturbance.rate,
+                    self._filter.rate,
                     rotation(state[2]).T @ self._sent,
                 )
         except Exception as error:  # noqa: BLE001  whatever it is, the tip must come to rest

@@ -16,16 +16,19 @@ class Tick:
     Attributes:
         mode: of the controller after the tick.
         velocity: command (2,) [m/s], world frame.
-        reference_time: time of the reference at the exposure [s].
-        exposure: time of the measurement [s].
+        reference_time: time of the reference at the exposure [s]; -inf without new poses.
+        exposure: time of the measurement [s]; NaN without new poses.
         now: time at which the command is sent [s].
-        state: measured [x, y, theta, p_y] (4,) [m, m, rad, m].
+        state: measured [x, y, theta, p_y] (4,) [m, m, rad, m]; None without new poses.
         predicted: the same at the time at which the command takes effect.
         reference: planned state (4,) at that time.
         gap: measured distance between tip and face [m], negative in contact by overlap.
         input: commanded [v_n, v_t] (2,) [m/s], body frame.
         nominal_input: planned [v_n, v_t] (2,) [m/s].
-        disturbance: estimated error of the model (3,) [1, 1, rad/m], see `DisturbanceEstimator`.
+        estimate: filtered pose (3,) [m, m, rad] at the newest exposure.
+        innovation: measured pose minus its prediction (3,); None without new poses.
+        innovation_deviation: its standard deviation that the filter expected.
+        disturbance: estimated error of the model (3,) [1, 1, rad/m], see `ObjectFilter`.
         solve_ms: duration of the QP [ms].
         iterations: of the solver, summed over the QPs of the tick.
         solver_status: of OSQP, 1 = solved.
@@ -44,6 +47,9 @@ class Tick:
     gap: float = 0.0
     input: Array | None = None
     nominal_input: Array | None = None
+    estimate: Array | None = None
+    innovation: Array | None = None
+    innovation_deviation: Array | None = None
     disturbance: Array | None = None
     solve_ms: float = 0.0
     iterations: int = 0

@@ -51,6 +51,10 @@ def fill_state(message: ControllerState, tick: Tick) -> None:
     message.gap = float(tick.gap)
     message.input = unknown[:2] if tick.input is None else tick.input
     message.nominal_input = unknown[:2] if tick.nominal_input is None else tick.nominal_input
+    message.estimate = unknown[:3] if tick.estimate is None else tick.estimate
+    message.innovation = unknown[:3] if tick.innovation is None else tick.innovation
+    expected = tick.innovation_deviation
+    message.innovation_deviation = unknown[:3] if expected is None else expected
     message.disturbance = unknown[:3] if tick.disturbance is None else tick.disturbance
     message.solve_ms = tick.solve_ms
     message.iterations = tick.iterations

@@ -3,7 +3,7 @@
 import math
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
@@ -40,6 +40,7 @@ REPORT_PERIOD = 1.0  # [s]
 GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
 _ACTIVE = (*MOVING, Mode.STOPPING)
 ON_REQUEST = 'stopped on request'
+_LATE = 1.5  # periods without a tick, from which one without poses takes its place
 _NOT_AT_REST = 'the tip is not at rest yet'
 
 
@@ -57,11 +58,12 @@ class MpcNode(Node):  # type: ignore[misc]
         self._gate = PoseGate(self._settings.poses, self._settings.limits)
         tolerance = None if self._lockstep else self._settings.poses.pair_tolerance
         self._poses = PosePair(
-            self, self._gate, tolerance, self._tick, self._refused, self._repeat
+            self, self._gate, tolerance, self._tick, self._coast, self._refused, self._repeat
         )
         self._graph = GraphWatch(self)
         self._mode_log = ModeLog()
         self._tick_count = self._extrapolations = 0
+        self._ticked = -math.inf
         self._table: Tabulated | None = None
         self._scheduling: Scheduling | None = None
         self._command, self._state = TwistStamped(), ControllerState()
@@ -124,9 +126,17 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
-        arrived = time.perf_counter()
+        self._answer(stamp, now, lambda: self._controller.step(*self._measured(), exposure, now))
+
+    def _coast(self, stamp: int, now: float) -> None:
+        """Goes on without new poses, with a stamp [ns] and the current time [s]."""
+        self._answer(stamp, now, lambda: self._controller.coast(now))
+
+    def _answer(self, stamp: int, now: float, step: Callable[[], Tick]) -> None:
+        """Computes and publishes a tick."""
+        arrived, self._ticked = time.perf_counter(), time.monotonic()
         self._take_model()
-        tick = self._computed(exposure, now)
+        tick = self._computed(step, now)
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
@@ -135,10 +145,10 @@ class MpcNode(Node):  # type: ignore[misc]
         self._outputs.step()
         self._controller.prepare_next()
 
-    def _computed(self, exposure: float, now: float) -> Tick:
+    def _computed(self, step: Callable[[], Tick], now: float) -> Tick:
         """One tick; of one that raises, the first of a stop."""
         try:
-            return self._controller.step(*self._measured(), exposure, now)
+            return step()
         except Exception as error:  # noqa: BLE001  whatever it is, the tip must come to rest
             self._controller.fail(f'a tick raised {error!r}')
             return self._controller.hold(now)
@@ -206,16 +216,16 @@ class MpcNode(Node):  # type: ignore[misc]
         )
 
     def _watch(self) -> None:
-        """Holds or stops the tip when poses are late; poses themselves drive everything else."""
-        slept = self._watchdog.slept(time.monotonic())
-        mode, age = self._controller.mode, self._poses.age
-        if slept or mode not in _ACTIVE or age <= self._settings.pose_timeout:
+        """Goes on without poses when they are late, and stops when none come any more."""
+        now, mode, age = time.monotonic(), self._controller.mode, self._poses.age
+        late = now - self._ticked > _LATE * self._settings.period
+        if self._watchdog.slept(now) or mode not in _ACTIVE or not late:
             return
         if age > self._settings.pose_loss and mode in MOVING:
             why = self._poses.explanation()
             self._halt(f'no pose for {1e3 * age:.0f} ms' + (f': {why}' if why else ''))
         elif mode != Mode.ARMED:
-            self._slow_down()
+            self._coast(*self._poses.now())
 
     def _watch_lockstep(self) -> None:
         """Ends a stop for which the plant no longer sends poses."""

@@ -1,5 +1,6 @@
 """Pairs each pose of the object with the pose of the tip that was taken nearest to its time."""
 
+import math
 import time
 from collections.abc import Callable
 
@@ -24,7 +25,8 @@ class PosePair:
     In real time a pose of the object pairs with the nearest of the last poses of the tip if their
     stamps differ by no more than a tolerance; where none does yet, it waits for the next ones. In
     lockstep the stamps are equal, `/clock` is a third message of the pair, and the simulator
-    repeats all three until a command answers them.
+    repeats all three until a command answers them; in a period without a picture, poses that are
+    not numbers say so.
 
     Attributes:
         object_pose: of the newest accepted pair.
@@ -38,6 +40,7 @@ class PosePair:
         gate: PoseGate,
         tolerance: float | None,
         on_pair: Callable[[int, float, float], None],
+        on_nothing: Callable[[int, float], None],
         on_refused: Callable[[str], None],
         on_repeat: Callable[[], None],
     ) -> None:
@@ -49,6 +52,8 @@ class PosePair:
             tolerance: difference of two stamps [s] that still pair; None in lockstep, where
                 /clock is the time.
             on_pair: called with stamp of the exposure [ns], exposure [s], current time [s].
+            on_nothing: called with stamp [ns] and current time [s] of a period of lockstep without
+                a picture.
             on_refused: called with the reason when a pair is refused.
             on_repeat: called when the simulator repeats the last pair.
         """
@@ -57,7 +62,8 @@ class PosePair:
         self._object = self.object_pose
         self._tips: TipHistory[PoseStamped] = TipHistory()
         self._gate = gate
-        self._on_pair, self._on_refused, self._on_repeat = on_pair, on_refused, on_repeat
+        self._on_pair, self._on_nothing = on_pair, on_nothing
+        self._on_refused, self._on_repeat = on_refused, on_repeat
         self._node = node
         self._node_clock = node.get_clock()
         self._lockstep = tolerance is None
@@ -73,14 +79,14 @@ class PosePair:
         """Forgets all pairs: time [s] counts from the next one."""
         self.problem = ''
         self._origin: int | None = None
-        self._handled = self._handled_clock = self._clock = _NEVER
+        self._handled = self._handled_clock = self._clock = self._newest = _NEVER
         self._object_stamp = _NEVER
         self._tips.clear()
         self._arrival = time.monotonic()
 
     def rewind(self) -> None:
         """Accepts stamps older than the last pair's: a clock was set, or the plant restarted."""
-        self._handled = self._handled_clock = _NEVER
+        self._handled = self._handled_clock = self._newest = _NEVER
 
     @property
     def age(self) -> float:
@@ -156,12 +162,17 @@ class PosePair:
             return
         if self._lockstep and self._clock in (_NEVER, self._handled_clock):
             return
+        if self._lockstep and math.isnan(self._object.pose.position.x):
+            self._handled, self._handled_clock = stamp, self._clock
+            self._on_nothing(stamp, self.now()[1])
+            return
         self.problem = self._fault(stamp, nearest[1])
         if self.problem:
             self._on_refused(self.problem)
             return
         self.object_pose, self.tip = self._object, nearest[1]
         self._handled, self._handled_clock = stamp, self._clock
+        self._newest = stamp
         self._origin = stamp if self._origin is None else self._origin
         self._arrival = self._accepted = time.monotonic()
         self._on_pair(stamp, to_seconds(stamp - self._origin), self.now()[1])
@@ -184,6 +195,6 @@ class PosePair:
             )
             if rejection:
                 return rejection.reason
-        if stamp < self._handled:
-            return f'the stamps went back by {1e-9 * (self._handled - stamp):.3g} s'
+        if stamp < self._newest:
+            return f'the stamps went back by {1e-9 * (self._newest - stamp):.3g} s'
         return ''

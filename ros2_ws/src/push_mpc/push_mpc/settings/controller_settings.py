@@ -102,6 +102,13 @@ class ControllerSettings:
     delay_compensation: bool = setting(
         True, 'roll the measured state forward through the commands already sent'
     )
+    pose_timeout: float = setting(
+        0.1,
+        'age of the newest poses up to which their prediction serves; then the tip is held',
+        unit='s',
+        low=0.011,
+        high=1.0,
+    )
     recontact: RecontactSettings = nested(RecontactSettings())
     actuator: ActuatorSettings = nested(ActuatorSettings())
     command_timeout: float = setting(

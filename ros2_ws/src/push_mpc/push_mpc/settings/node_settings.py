@@ -44,13 +44,6 @@ class MpcSettings(ControllerSettings):
     mode: str = setting(
         'realtime', 'clock: the system clock, or /clock', choices=('realtime', 'lockstep')
     )
-    pose_timeout: float = setting(
-        0.03,
-        'age of the newest pose from which the tip is held',
-        unit='s',
-        low=0.011,
-        high=1.0,
-    )
     pose_loss: float = setting(
         1.5, 'age of the newest pose at which the controller stops', unit='s', low=0.011, high=10.0
     )
@@ -77,8 +70,17 @@ def is_changeable(name: str) -> bool:
     return name.startswith(_CHANGEABLE)
 
 
+_POSE_TIMEOUTS = {'webcam': 0.2}
+"""Profile, to its `pose_timeout` [s]: that of a slow camera bears the loss of two pictures."""
+
+
 def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
     """Defaults for a robot profile and a preset; an unknown name is left to validation."""
-    actuator = ACTUATORS.get(profile, MpcSettings().actuator)
-    robot = replace(MpcSettings(), profile=profile, preset=preset, actuator=actuator)
+    robot = replace(
+        MpcSettings(),
+        profile=profile,
+        preset=preset,
+        actuator=ACTUATORS.get(profile, MpcSettings().actuator),
+        pose_timeout=_POSE_TIMEOUTS.get(profile, MpcSettings().pose_timeout),
+    )
     return with_preset(robot, preset)

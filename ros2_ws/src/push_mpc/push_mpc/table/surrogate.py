@@ -100,6 +100,23 @@ class Table:
         x, y, theta = (by_beta @ (1.0, t, t * t, t * t * t)).tolist()
         return x, y, theta
 
+    def rate_and_slopes(self, p_y: float, beta: float) -> Array:
+        """Rates and their slopes (3, 2, 2) at one point: [:, 0, 0] is `rate`.
+
+        [:, 1, 0] is the derivative by p_y, [:, 0, 1] that by beta.
+        """
+        (p_low, b_low), (p_step, b_step), (p_cells, b_cells) = self._axes
+        t, i = _unit(p_y, p_low, p_step, p_cells)
+        u, j = _unit(beta, b_low, b_step, b_cells)
+        across = np.array([[1.0, t, t * t, t * t * t], _slope(t, p_step)])
+        around = np.array([[1.0, u, u * u, u * u * u], _slope(u, b_step)])
+        return np.asarray(across @ self._coefficients[i, j] @ around.T)
+
+
+def _slope(t: float, step: float) -> list[float]:
+    """Derivatives of the powers 0..3 of t by the input of which it is 1/step."""
+    return [0.0, 1.0 / step, 2.0 * t / step, 3.0 * t * t / step]
+
 
 def _powers(t: Array) -> tuple[Array, Array]:
     """Powers 0..3 of t (n, 2) and their derivatives, each (n, 2, 4)."""

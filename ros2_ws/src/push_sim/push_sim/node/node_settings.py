@@ -63,8 +63,8 @@ _CHANGEABLE = (
 
 
 def is_changeable(name: str) -> bool:
-    """Whether a parameter may change while the plant runs, which has its latency built in."""
-    return name != 'sensor.latency' and name.startswith(_CHANGEABLE)
+    """Whether a parameter may change while the plant runs; the schedule of pictures may not."""
+    return name not in ('sensor.latency', 'sensor.rate') and name.startswith(_CHANGEABLE)
 
 
 def node_settings(profile_name: str) -> NodeSettings:

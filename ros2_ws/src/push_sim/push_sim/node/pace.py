@@ -94,6 +94,8 @@ class RealtimePace:
 class LockstepPace:
     """Publishes a pose and `/clock`, waits for the command that answers, and steps once.
 
+    In a period without a picture, poses that are no numbers say so.
+
     An unanswered pose is published again until a command arrives: poses are best effort, and the
     controller may not be running yet.
     """
@@ -126,7 +128,7 @@ class LockstepPace:
         self._answered = True
         self._publishers.step()
         self._plant.command(velocity, self._plant.time)
-        self._show(self._plant.step_until_seen())
+        self._show(self._plant.step() or self._plant.without_picture())
 
     def stamp(self, plant_time: float) -> int:
         """The plant time in nanoseconds: in lockstep the cell's clock is the plant's."""

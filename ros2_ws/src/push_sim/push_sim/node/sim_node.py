@@ -104,8 +104,11 @@ class SimNode(Node):  # type: ignore[misc]
         # the tip first, so that a subscriber that waits for the object's pose has both
         self._pusher.publish(position_message(observation.tip_position, stamp))
         self._object.publish(pose_message(observation.object_pose, stamp))
-        self._truth.publish(self._truth_message.of(observation.truth, stamp))
-        self._tf.publish(self._frames.at(observation.object_pose, observation.tip_position, stamp))
+        if observation.shows_object:
+            self._truth.publish(self._truth_message.of(observation.truth, stamp))
+            self._tf.publish(
+                self._frames.at(observation.object_pose, observation.tip_position, stamp)
+            )
         for applied in self._plant.take_perturbations():
             happened = to_stamp(self._pace.stamp(applied.time))
             self._perturbation.publish(perturbation_message(applied, happened))

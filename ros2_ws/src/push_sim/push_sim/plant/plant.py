@@ -17,7 +17,7 @@ from push_sim.plant.perturbation import (
     Schedule,
     apply_perturbation,
 )
-from push_sim.plant.sensor import Observation, Sensor
+from push_sim.plant.sensor import Observation, Sensor, nothing_seen
 from push_sim.settings import PERIOD, SimSettings, StartOffset, WorldSettings
 from push_sim.worlds import make_world
 from push_sim.worlds.common import Outline
@@ -110,9 +110,11 @@ class Plant:
         """
         old, slider = self._settings
         world = _with_friction_of(old.world, settings.world)
-        unchanged = world, settings.actuator, settings.sensor.latency
-        if unchanged != (old.world, old.actuator, old.sensor.latency):
-            raise InputError('actuator, latency, and of the world all but friction cannot change')
+        unchanged = world, settings.actuator, settings.sensor.grid
+        if unchanged != (old.world, old.actuator, old.sensor.grid):
+            raise InputError(
+                'actuator, latency, rate, and of the world all but friction cannot change'
+            )
         self._settings = settings, slider
         if settings.world != old.world:
             self._world.set_friction(
@@ -124,7 +126,7 @@ class Plant:
             self._schedule.change(settings.perturbation)
 
     def step(self) -> Observation | None:
-        """Advances one period; returns the picture published then, None if it was lost."""
+        """Advances one period; returns the picture published then, None without one."""
         self._perturb_if_due()
         start, duration, done = self.time, self._substep, 0
         while done < self._substeps:
@@ -135,6 +137,10 @@ class Plant:
             done = until
         self._ticks += 1
         return self._sensor.show()
+
+    def without_picture(self) -> Observation:
+        """Stands for a picture in a period without one; no exposure has its time."""
+        return nothing_seen(self.time - 0.5 * self._substep)
 
     def step_until_seen(self) -> Observation:
         """Advances to the next picture that is not lost."""
@@ -237,7 +243,7 @@ class Plant:
         return round((self.START + elapsed) / _NANOSECOND) * _NANOSECOND
 
     def _schedule_picture(self) -> None:
-        due = self._pictures * self._substeps
+        due = self._settings[0].sensor.due(self._pictures) * self._substeps
         self._exposure = due - self._latency - self._sensor.extra_delay(self._substep)
 
     def _expose_until(self, substep: int) -> None:

@@ -1,17 +1,19 @@
 """The cameras: pictures with noise, bias, latency, jitter, losses and freezes.
 
 A picture that is published at the end of a period was exposed one latency earlier, plus jitter.
+With fewer pictures than periods, each is published at the end of the period in which it is due.
 Each source of error draws from its own random stream, so that switching one on does not change
 the others.
 """
 
+import math
 from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 from push_core.geometry import Array, grid_yaw
 
-from push_sim.settings import PERIOD, SensorSettings
+from push_sim.settings import SensorSettings
 
 FREEZE_DURATION = 0.1
 """Duration [s] of a freeze."""
@@ -46,6 +48,17 @@ class Observation:
     tip_position: Array
     truth: TrueState
 
+    @property
+    def shows_object(self) -> bool:
+        """Whether there was a picture."""
+        return not math.isnan(self.object_pose[0])
+
+
+def nothing_seen(time: float) -> Observation:
+    """What is published at a plant time [s] without a picture: nothing is a number."""
+    pose, tip = np.full(3, math.nan), np.full(2, math.nan)
+    return Observation(time, pose, tip, TrueState(pose, tip))
+
 
 class Sensor:
     """Takes pictures and publishes each after its latency."""
@@ -55,7 +68,7 @@ class Sensor:
         self.reset(np.random.default_rng())
 
     def change(self, settings: SensorSettings) -> None:
-        """Uses other settings from the next picture on; the latency must be the same."""
+        """Uses other settings from the next picture on; latency and rate must be the same."""
         self._settings = settings
         self._deviation = np.array(
             [settings.position_noise, settings.position_noise, settings.angle_noise]
@@ -68,6 +81,7 @@ class Sensor:
         self._noise = random
         self._delay, self._loss, self._freeze, self._tip_noise = random.spawn(4)
         self._pending: deque[Observation | None] = deque()
+        self._shown = self._periods = 0
         self._begun = False
         self._frozen: Array | None = None
         self._frozen_left = 0
@@ -103,8 +117,14 @@ class Sensor:
         return first
 
     def show(self) -> Observation | None:
-        """Returns the oldest pending picture; None if it was lost."""
-        return self._pending.popleft()
+        """The picture published at the end of the next period; None if there is none.
+
+        The first call shows the picture taken before the first period.
+        """
+        due = self._settings.due(self._shown) == self._periods
+        self._periods += 1
+        self._shown += due
+        return self._pending.popleft() if due else None
 
     def _is_lost(self) -> bool:
         rate = self._settings.dropout
@@ -113,7 +133,8 @@ class Sensor:
     def _as_frozen(self, measured: Array) -> Array:
         """The pose at which the camera is frozen, or the measured one."""
         if self._frozen_left == 0 and self._freezes():
-            self._frozen_left, self._frozen = round(FREEZE_DURATION / PERIOD), measured
+            pictures = round(FREEZE_DURATION * self._settings.rate)
+            self._frozen_left, self._frozen = pictures, measured
         if self._frozen_left == 0 or self._frozen is None:
             return measured
         self._frozen_left -= 1
@@ -121,4 +142,4 @@ class Sensor:
 
     def _freezes(self) -> bool:
         rate = self._settings.freeze_rate
-        return rate > 0.0 and self._freeze.random() < rate * PERIOD
+        return rate > 0.0 and self._freeze.random() < rate / self._settings.rate

@@ -7,7 +7,9 @@ from enum import IntEnum
 from push_core.common import InputError, nested, setting, validate
 from push_core.physics import ACTUATORS, ActuatorSettings, SafetyLimits
 
-from push_sim.settings.world_settings import WorldSettings
+from push_sim.settings.world_settings import PERIOD, WorldSettings
+
+_ROUNDING = 1e-9  # of a number of periods
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,10 @@ class SensorSettings:
         0.005, 'time from exposure to publication', unit='s', low=0.0, high=0.5
     )
     jitter: float = setting(
-        0.0, 'largest additional latency, random for each picture', unit='s', low=0.0, high=0.009
+        0.0, 'largest additional latency, random for each picture', unit='s', low=0.0, high=0.1
+    )
+    rate: float = setting(
+        1.0 / PERIOD, 'pictures per second', unit='1/s', low=1.0, high=1.0 / PERIOD
     )
     dropout: float = setting(0.0, 'fraction of pictures that are lost', low=0.0, high=0.9)
     freeze_rate: float = setting(
@@ -53,6 +58,26 @@ class SensorSettings:
 
     def __post_init__(self) -> None:
         validate(self)
+        if self.jitter >= self.shortest_interval:
+            raise InputError(
+                f'parameter sensor.jitter is {self.jitter:g}, must be less than the shortest time '
+                f'between two pictures, {self.shortest_interval:g} s at a sensor.rate of '
+                f'{self.rate:g} 1/s'
+            )
+
+    @property
+    def grid(self) -> tuple[float, float]:
+        """Latency and rate, which the schedule of the pictures is made of."""
+        return self.latency, self.rate
+
+    def due(self, picture: int) -> int:
+        """The period at whose end a picture is published; periods and pictures count from 0."""
+        return math.ceil(picture / (self.rate * PERIOD) - _ROUNDING)
+
+    @property
+    def shortest_interval(self) -> float:
+        """Shortest time [s] between two pictures: they are published at the ends of periods."""
+        return math.floor(1.0 / (self.rate * PERIOD) + _ROUNDING) * PERIOD
 
 
 class PerturbationKind(IntEnum):

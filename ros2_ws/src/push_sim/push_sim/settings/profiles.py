@@ -28,6 +28,17 @@ PROFILES: Mapping[str, SimSettings] = {
         ),
         command_loss=0.01,
     ),
+    'webcam': SimSettings(
+        actuator=ACTUATORS['webcam'],
+        sensor=SensorSettings(
+            position_noise=1e-3,
+            angle_noise=math.radians(1.0),
+            rate=30.0,
+            latency=0.03,
+            jitter=0.02,
+            dropout=0.02,
+        ),
+    ),
 }
 
 
