@@ -225,7 +225,7 @@ def test_a_lap_teaches_the_next_what_its_plant_is() -> None:
 
 def test_every_plant_is_a_cell_and_each_is_another(tmp_path) -> None:
     jobs = [
-        LapJob(plant.experiment, 'analytical', 'analytical', 'irb120', 0, plant.overrides)
+        LapJob(plant.experiment, 'analytical', 'analytical', plant.profile, 0, plant.overrides)
         for plant in PLANTS.values()
     ]
     assert len({job.key for job in jobs}) == len(PLANTS)

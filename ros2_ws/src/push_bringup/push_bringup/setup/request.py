@@ -14,7 +14,7 @@ class Request:
         speed: of the object's centre [m/s].
         controller: its name.
         model: path of a model file, or 'analytical'.
-        profile: irb120, ideal or harsh.
+        profile: irb120, ideal, harsh or webcam.
         perturb: none, normal or tangential.
         laps: rounds of a closed track.
         seed: of everything random.
