@@ -41,7 +41,7 @@ def test_an_unknown_track_is_refused() -> None:
 
 
 def test_an_unknown_profile_is_refused() -> None:
-    with pytest.raises(InputError, match="profile is 'kuka', must be one of irb120, harsh, webcam"):
+    with pytest.raises(InputError, match="profile is 'kuka', must be one of irb120, harsh"):
         mpc_settings('kuka')
 
 
