@@ -31,8 +31,11 @@ from push_bringup.commands import bench
 from push_bringup.experiment.experiment import PAPER_MM, Experiment, LapJob
 from push_bringup.experiment.lap import Lap, LapErrors, pushed
 from push_bringup.experiment.lap_pool import LapStore, push_all
+from push_bringup.in_process import InProcessCell
 from push_bringup.mismatch.plants import PLANTS, PlantVariant
 from push_core.common.strict_json import finite
+from push_gp.models import model_named
+from push_mpc.plan import planned
 
 LINE = Experiment('line', 0.15)
 JOB = LapJob(LINE, 'analytical', 'analytical', 'ideal', seed=0)
@@ -221,6 +224,21 @@ def test_a_lap_teaches_the_next_what_its_plant_is() -> None:
     friction, uncertainty = taught.per_lap[1].friction or (math.nan, math.nan)
     assert 0.3 < friction < 0.8
     assert 0.0 < uncertainty < 0.3
+
+
+def test_after_a_bad_lap_the_next_is_driven_like_the_best(monkeypatch) -> None:
+    monkeypatch.setattr('push_bringup.in_process.lap_learner.WORSE', 0.0)
+    circle, plant = Experiment('circle', 0.2), {'world.engine': 'quasi_static'}
+    job = LapJob(circle, 'gp', 'analytical', 'ideal', 0, plant, laps=4, learn=True)
+    parameters = job.parameters()
+    model = model_named('analytical', parameters.gp.slider)
+    cell = InProcessCell(parameters, model, planned(parameters.mpc), learn=True)
+    seen = []
+    cell.run(lambda *_: seen.append(cell.controller.model_id))
+    cell.close()
+    first, second, third, fourth = (seen[round((lap + 0.5) / 4 * len(seen))] for lap in range(4))
+    assert len({first, second, third}) == 3
+    assert fourth == second
 
 
 def test_every_plant_is_a_cell_and_each_is_another(tmp_path) -> None:

@@ -2,8 +2,10 @@
 
 import hashlib
 import math
+from dataclasses import dataclass, replace
 
 import numpy as np
+from push_core.data import PushSet
 from push_core.geometry import Array, rotation
 from push_gp.learn import ConeLearner, Identified, interrupted, segments
 from push_gp.models import NOMINAL_DISTANCE, SmoothCone
@@ -22,11 +24,32 @@ ANOTHER_MODEL = 0.05
 one do not teach the reference, and the change counts as a disturbance of the next."""
 
 
+WORSE = 2.0
+"""Ratio to the mean error of the best lap from which the next one is driven like that again."""
+
+
+@dataclass(frozen=True)
+class _Driven:
+    """What a lap was driven with, and how well it went.
+
+    Attributes:
+        prepared: for the controller.
+        identified: the motion cone.
+        shift: of the reference.
+        size: mean error of the lap [m], infinite before its end.
+    """
+
+    prepared: PreparedModel
+    identified: Identified
+    shift: Array
+    size: float
+
+
 class LapLearner:
     """Follows a run and prepares what the next lap is driven with.
 
     Attributes:
-        identified: the motion cone after each lap.
+        identified: the motion cone that each lap but the first is driven with.
     """
 
     def __init__(self, controller: Controller, settings: MpcSettings) -> None:
@@ -38,6 +61,8 @@ class LapLearner:
         self._cone = ConeLearner(settings.slider, NOMINAL_DISTANCE)
         self._shift = ReferenceShift(controller.track_plan, settings.laps)
         self._quiet_from = 0.0
+        self._driven: _Driven | None = None
+        self._best: _Driven | None = None
         self._rows: list[Array] = []
 
     def observe(self, observation: Observation, tick: Tick) -> PreparedModel | None:
@@ -55,26 +80,45 @@ class LapLearner:
         return self._learn()
 
     def _learn(self) -> PreparedModel:
+        """What the next lap is driven with: what this one teaches, or what drove the best one."""
         rows, self._rows = np.array(self._rows), []
         rows[:, 4] = np.unwrap(rows[:, 4])
-        slider, before = self._settings.slider, self._cone.known
-        pushes = segments(rows[:, 2:5], rows[:, 5:], slider, NOMINAL_DISTANCE)
-        after = self._cone.learn(pushes)
-        self.identified.append(after)
+        errors = self._errors(rows)
+        size = float(np.hypot(*errors.T).mean())
+        before, after = self._cone.known, self._cone.learn(self._pushes(rows))
+        if self._best is not None and size > WORSE * self._best.size:
+            # a plant that changed must be able to become better than it is
+            self._best = replace(self._best, size=math.inf)
+            return self._drive(self._best)
+        if self._driven is not None and (self._best is None or size < self._best.size):
+            self._best = replace(self._driven, size=size)
         if is_another(before, after):
             self._quiet_from = rows[-1, 0] + DISTURBED / self._settings.speed
         else:
-            self._teach_reference(rows)
-        return self._prepared(after.model)
+            self._teach_reference(rows, errors)
+        prepared = self._prepared(after.model)
+        return self._drive(_Driven(prepared, after, self._shift.shift, math.inf))
 
-    def _teach_reference(self, rows: Array) -> None:
-        times, poses, tips = rows[:, 0], rows[:, 2:5], rows[:, 5:]
-        broken = interrupted(poses, tips, self._settings.slider) | (rows[:, 1] == 0.0)
-        teaches = (times >= self._quiet_from) & ~self._after(times, times[broken])
+    def _drive(self, driven: '_Driven') -> PreparedModel:
+        self._driven, self._shift.shift = driven, driven.shift
+        self.identified.append(driven.identified)
+        return driven.prepared
+
+    def _pushes(self, rows: Array) -> PushSet:
+        return segments(rows[:, 2:5], rows[:, 5:], self._settings.slider, NOMINAL_DISTANCE)
+
+    def _errors(self, rows: Array) -> Array:
+        """Errors (n, 2) of the object's position [m], in the frame of the track."""
         plan, track = self._controller.plan, self._controller.track_plan
-        reference = np.array([plan.at(time)[0][:2] for time in times.tolist()])
+        reference = np.array([plan.at(time)[0][:2] for time in rows[:, 0].tolist()])
         turn = float(plan.state[0, 2] - track.state[0, 2])
-        errors = (poses[:, :2] - reference) @ rotation(turn)
+        return np.asarray((rows[:, 2:4] - reference) @ rotation(turn))
+
+    def _teach_reference(self, rows: Array, errors: Array) -> None:
+        times = rows[:, 0]
+        broken = interrupted(rows[:, 2:5], rows[:, 5:], self._settings.slider)
+        broken |= rows[:, 1] == 0.0
+        teaches = (times >= self._quiet_from) & ~self._after(times, times[broken])
         self._shift.learn(times[teaches], errors[teaches])
 
     def _after(self, times: Array, disturbances: Array) -> np.ndarray:
