@@ -20,6 +20,7 @@ IMPORTED_BY_NAME = {
     'push_bag.record.recorder',
     'push_bag.record.recording',
     'push_bag.replay.node_comparison',
+    'push_bag.report.live_page',
     'push_bringup.driver_check.driver_client',
     'push_bringup.faults.campaign',
     'push_bringup.faults.kinds',

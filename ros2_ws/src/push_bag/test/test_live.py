@@ -70,7 +70,16 @@ def publisher() -> Iterator[Node]:
 def port() -> Iterator[int]:
     """The port of a running live view."""
     process = subprocess.Popen(
-        [sys.executable, '-m', 'push_bag.commands.live', '--ros-args', '-p', 'port:=0'],
+        [
+            sys.executable,
+            '-m',
+            'push_bag.commands.live',
+            '--ros-args',
+            '-p',
+            'port:=0',
+            '-p',
+            'page_port:=0',
+        ],
         stderr=subprocess.PIPE,
         text=True,
     )

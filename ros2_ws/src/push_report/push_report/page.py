@@ -32,6 +32,8 @@ def page(title: str, sections: Sequence[str], head: str = '', script: str = '') 
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        # an icon of nothing, so that a browser asks for none
+        '<link rel="icon" href="data:,">'
         f'<title>{escape(title)}</title><style>{style}</style>{library}</head>\n'
         f'<body>{above}{"".join(sections)}<script>{drawing}{script}</script></body></html>\n'
     )

@@ -4,7 +4,7 @@ A `Recording` writes to it as to a bag. The last message of a latched topic is s
 subscribers, as DDS does. The planned horizon is also sent as a marker, on `horizon_line`.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import foxglove
@@ -18,7 +18,13 @@ from push_bag.live.horizon_marker import HORIZON_TYPE, MARKER_TYPE, serialized_m
 class LiveServer(ServerListener):
     """A `RawSink` that sends messages to browsers; stores the last one of latched topics."""
 
-    def __init__(self, host: str, port: int, topics: Iterable[tuple[str, str, str]]) -> None:
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        topics: Iterable[tuple[str, str, str]],
+        also: Callable[[str, bytes], None] = lambda *_: None,
+    ) -> None:
         """Starts the server.
 
         Args:
@@ -26,10 +32,12 @@ class LiveServer(ServerListener):
             port: TCP port; 0 for any free one.
             topics: arguments of `add_topic` for topics to announce before the first client: a
                 client that sees a topic being announced may subscribe too early.
+            also: called with the topic and data of each message.
 
         Raises:
             RunError: the address or port is not available.
         """
+        self._also = also
         self._context = foxglove.Context()
         self._channels: dict[str, Any] = {}
         self._latched: dict[str, bytes] = {}
@@ -77,6 +85,7 @@ class LiveServer(ServerListener):
         """Sends one serialized message to the subscribers of its topic."""
         if name in self._latched:
             self._latched[name] = data
+        self._also(name, data)
         self._channels[name].log(data, log_time=log_ns)
         if name in self._lines:
             self._lines[name].log(serialized_marker(data), log_time=log_ns)
