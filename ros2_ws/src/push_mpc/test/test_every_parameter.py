@@ -36,6 +36,8 @@ OTHER = {
     'limits.dead_band': 0.01,
     'recontact.gap': 0.05,
     'guard.solver_failures': 2,
+    'guard.catch_up': 0.3,
+    'guard.tracking_error': 0.02,
 }
 NAMES = sorted(
     name
@@ -61,9 +63,9 @@ def poses(plan: Plan) -> list[tuple[Array, Array]]:
 
 
 def times() -> Array:
-    """Exposures (TICKS,) [s] of the poses; once none comes for 80 ms."""
+    """Exposures (TICKS,) [s] of the poses; once none comes for 110 ms."""
     ticks = np.arange(TICKS)
-    return 0.01 * ticks + 0.07 * (ticks >= 20)
+    return 0.01 * ticks + 0.10 * (ticks >= 20)
 
 
 def no_solution(*_problem: object) -> Move:
