@@ -60,7 +60,7 @@ def test_the_qp_in_si_units_is_the_same_qp(recorded) -> None:
     z = np.random.default_rng(0).normal(size=problem.linear.size)
     in_si = z * problem.units[0]
     cost, scaled = (
-        0.5 * np.sum(each.cost * point**2) + each.linear @ point
+        0.5 * point @ (each.cost @ point) + each.linear @ point
         for each, point in ((again, in_si), (problem, z))
     )
     assert cost == pytest.approx(problem.units[2] * scaled, rel=1e-12)

@@ -188,12 +188,15 @@ def recorded_problems(monkeypatch: pytest.MonkeyPatch) -> list[tuple[tuple[Any, 
     prepared: dict[TrackingQP, tuple[Any, ...]] = {}
     prepare, solve = TrackingQP.prepare, TrackingQP.solve
 
-    def keep_problem(self: TrackingQP, stages: Stages, window: Array, first: Stages) -> None:
-        *dynamics, limits = stages.in_si_units(window)
+    def keep_problem(
+        self: TrackingQP, stages: Stages, window: Array, first: Stages, dynamics: Array
+    ) -> None:
+        target, limits = stages.in_si_units(window)
         for limit, own in zip(limits, first.in_si_units(window[:1])[-1], strict=True):
             limit[0] = own[0]
-        prepared[self] = (*dynamics, limits)
-        prepare(self, stages, window, first)
+        parts = np.split(dynamics.copy(), [4, dynamics.shape[-1] - 4], axis=-1)
+        prepared[self] = (*parts, target, limits)
+        prepare(self, stages, window, first, dynamics)
 
     def keep_solution(
         self: TrackingQP, start: Array, widening: float, disturbance: Array, before: Array
@@ -221,7 +224,7 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
     def solve(
         state_weights: Array,
         input_weights: Array,
-        change_weights: Array,
+        change_weights: tuple[Array, Array],
         limited: Array,
         transition: Array,
         effect: Array,
@@ -240,8 +243,11 @@ def independent_inputs(unrolled: Callable[..., tuple[Array, Array]]) -> Callable
         forced /= unit
         hessian = 2.0 * (forced.T * weights @ forced + np.eye(nu * steps))
         gradient = 2.0 * (forced.T @ (weights * (free - aim)) - unit * target[:, nx:].ravel())
-        hessian[:nu, :nu] += 2.0 * np.diag(change_weights / input_weights)
-        gradient[:nu] -= 2.0 * change_weights * before / unit[:nu]
+        first, later = change_weights
+        hessian[:nu, :nu] += 2.0 * np.diag(first / input_weights)
+        gradient[:nu] -= 2.0 * first * before / unit[:nu]
+        changes = np.kron(np.diff(np.eye(steps), axis=0), np.diag(np.sqrt(later / input_weights)))
+        hessian += 2.0 * changes.T @ changes
         rows = np.vstack([forced[3::nx], np.kron(np.eye(steps), limited) / unit])
         shift = np.concatenate([free[3::nx], np.zeros(len(limited) * steps)])
         low, high = (

@@ -29,7 +29,9 @@ def test_it_is_a_choice_of_the_settings_and_tracks(name: str, make_cell) -> None
 def test_its_steering_has_solvers_of_its_own(name: str) -> None:
     settings = ControllerSettings()
     steering_class = resolve_name(CONTROLLERS[name].steering)
-    first, second = (steering_class(settings, mpc_settings('irb120').slider) for _ in range(2))
+    first, second = (
+        steering_class(settings, mpc_settings('irb120').slider, 0.08) for _ in range(2)
+    )
     assert first.solvers
     assert not {*map(id, first.solvers)} & {*map(id, second.solvers)}
 
@@ -89,7 +91,7 @@ def test_a_model_that_was_prepared_before_a_change_keeps_the_changed_limits(
     prepared = cell.controller.prepare_model(table, 'earlier')
     cell.controller.change(replaced(cell.controller.settings, CHANGED))
     cell.controller.use(prepared)
-    fresh = cell.controller.prepare_model(table, 'later').linearised.stages
-    for one, other in zip(cell.controller._model.linearised.stages, fresh, strict=True):
+    fresh = cell.controller.prepare_model(table, 'later').staged.stages
+    for one, other in zip(cell.controller._model.staged.stages, fresh, strict=True):
         assert np.array_equal(one.high, other.high)
         assert np.array_equal(one.low, other.low)

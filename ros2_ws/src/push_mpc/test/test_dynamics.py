@@ -2,8 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from push_mpc.motion.dynamics import discretised, linearised, rates
-from scipy.linalg import expm
+from push_mpc.motion.dynamics import linearised, rates
 
 TIP_X = -0.05
 STATE = np.array([0.3, -0.2, 0.7, 0.012])
@@ -69,46 +68,3 @@ def test_no_push_at_all_gives_no_motion_and_no_fault(model) -> None:
     state, still = STATE[None], np.zeros((1, 2))
     assert np.allclose(rates(model, state, still, TIP_X), 0.0, atol=1e-8)
     assert all(np.isfinite(part).all() for part in linearised(model, state, still, TIP_X))
-
-
-def exact(a, b, duration):
-    """Transition and effect of a constant system over a duration, by the matrix exponential."""
-    block = np.zeros((6, 6))
-    block[:4, :4], block[:4, 4:] = a, b
-    whole = expm(duration * block)
-    return whole[:4, :4], whole[:4, 4:]
-
-
-def test_the_discretisation_converges_to_the_matrix_exponential(model) -> None:
-    a, b = (part[0] for part in linearised(model, STATE[None], INPUT[None], TIP_X))
-    expected = exact(a, b, 0.06)
-
-    def errors(stride: int) -> np.ndarray:
-        count = stride + 1
-        found = discretised(
-            np.tile(a, (count, 1, 1)), np.tile(b, (count, 1, 1)), stride, 0.06 / stride
-        )
-        return np.array([np.abs(f[0] - e).max() for f, e in zip(found, expected, strict=True)])
-
-    coarse, fine = errors(6), errors(12)
-    assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.05)
-    # the controller's own steps are far finer than the motion
-    assert coarse[0] / np.abs(expected[0]).max() < 0.03
-
-
-def test_a_step_of_one_sample_is_that_of_euler(model) -> None:
-    a, b = linearised(model, STATE[None], INPUT[None], TIP_X)
-    transition, effect = discretised(a, b, 1, 0.01)
-    assert np.allclose(transition[0], np.eye(4) + 0.01 * a[0], rtol=0, atol=1e-15)
-    assert np.allclose(effect[0], 0.01 * b[0], rtol=0, atol=1e-15)
-
-
-def test_a_longer_step_goes_through_the_samples_in_their_order() -> None:
-    generator = np.random.default_rng(1)
-    a, b = generator.normal(size=(4, 4, 4)), generator.normal(size=(4, 4, 2))
-    transition, effect = discretised(a, b, 3, 0.1)
-    state, inputs = generator.normal(size=4), generator.normal(size=2)
-    expected = state
-    for sample in (1, 2, 3):
-        expected = expected + 0.1 * (a[sample] @ expected + b[sample] @ inputs)
-    assert np.allclose(transition[1] @ state + effect[1] @ inputs, expected, rtol=1e-12)

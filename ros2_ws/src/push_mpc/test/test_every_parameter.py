@@ -25,6 +25,7 @@ USUAL = replaced(
     {'speed': 0.1, 'good_poses': 2, 'consistent_plan': False, 'limits.reaction_time': 0.5},
 )
 OTHER = {
+    'weights.smoothness': 3.0,
     'horizon_step': 0.05,
     'horizon_steps': 10,
     'track': 'line',

@@ -10,7 +10,8 @@ from push_mpc.plan import Placement
 from push_mpc.qp import ForceSteering, VelocitySteering
 from push_mpc.settings.node_settings import mpc_settings
 
-SETTINGS = replace(mpc_settings('irb120'), good_poses=3, consistent_plan=False)
+# along the last solution the tolerance of the solver would go on from tick to tick
+SETTINGS = replace(mpc_settings('irb120'), good_poses=3, consistent_plan=False, relinearise=False)
 THERE = np.array([0.11, -0.07, 2.4])
 
 
@@ -36,11 +37,11 @@ def test_stages_that_were_turned_are_those_of_the_plan_that_was_turned(
     steering, eight, slider, table
 ) -> None:
     placement = Placement(eight.state[0, :3], THERE)
-    made = steering(SETTINGS, slider)
-    turned = made.linearised(table, eight, 5).placed(placement)
-    anew = made.linearised(table, placement.of(eight), 5)
+    made = steering(SETTINGS, slider, 0.08)
+    turned = made.staged(table, eight, 5).placed(placement)
+    anew = made.staged(table, placement.of(eight), 5)
     for ours, theirs in zip(turned.stages, anew.stages, strict=True):
-        for name in ('entries', 'drift', 'target', 'low', 'high'):
+        for name in ('target', 'low', 'high'):
             np.testing.assert_allclose(
                 getattr(ours, name), getattr(theirs, name), rtol=1e-7, atol=1e-7, err_msg=name
             )

@@ -1,7 +1,5 @@
 """The QP, against one that is built independently in SI units and solved by another solver."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from push_mpc.qp.solver import OSQP_SETTINGS
@@ -15,8 +13,8 @@ ITERATION_LIMIT = 7  # a status of OSQP
 SPACE = InputSpace(np.full(NU, 1e-2), np.eye(NU), np.full(NU, 1e-2), ('v_n [m/s]', 'v_t [m/s]'))
 STATE_WEIGHTS = np.array([6000.0, 6000.0, 1.0, 1000.0])
 INPUT_WEIGHTS = np.array([10.0, 1.0])
-CHANGE_WEIGHTS = np.array([2.0, 2.0])
-WEIGHTS = QPWeights(STATE_WEIGHTS, INPUT_WEIGHTS, CHANGE_WEIGHTS)
+CHANGE_WEIGHTS = np.array([2.0, 2.0]), np.array([0.0, 0.0])
+WEIGHTS = QPWeights(STATE_WEIGHTS, INPUT_WEIGHTS, *CHANGE_WEIGHTS)
 BEFORE = np.array([0.01, -0.02])
 DISTURBANCE = np.array([0.1, -0.2, 3.0])
 
@@ -71,16 +69,18 @@ def problem():
 
 
 def stages_of(problem):
-    parts = {'transition': 0, 'effect': 1, 'drift': 2, 'target': 3}
-    preview = SimpleNamespace(**{name: problem[index] for name, index in parts.items()})
-    return Stages.of(SPACE, preview, problem[4])
+    return Stages.of(SPACE, problem[3], problem[4])
+
+
+def dynamics_of(problem):
+    return np.concatenate(problem[:3], axis=-1)
 
 
 def solved(problem, times=1, widening=0.0):
     qp = TrackingQP(len(problem[0]), SPACE, WEIGHTS)
     made = stages_of(problem)
     for _ in range(times):
-        qp.prepare(made, np.arange(6), made)
+        qp.prepare(made, np.arange(6), made, dynamics_of(problem))
         solution = qp.solve(problem[5], widening, DISTURBANCE, BEFORE)
     return solution
 
@@ -91,17 +91,19 @@ def test_without_bounds_it_is_the_least_squares_solution(problem, unrolled) -> N
     aim = target @ DISTURBANCE
     later = np.concatenate([aim[1:, :NX], aim[-1:, :NX]]).ravel()
     root = np.sqrt(np.tile(STATE_WEIGHTS, 6))
-    change = np.sqrt(CHANGE_WEIGHTS)
+    change, smooth = (np.sqrt(weights) for weights in CHANGE_WEIGHTS)
     rows = np.vstack(
         [
             root[:, None] * forced,
             np.diag(np.sqrt(np.tile(INPUT_WEIGHTS, 6))),
             np.eye(NU, 6 * NU) * change[:, None],
+            np.kron(np.diff(np.eye(6), axis=0), np.diag(smooth)),
         ]
     )
     preferred = np.sqrt(INPUT_WEIGHTS) * aim[:, NX:]
-    right = np.concatenate([root * (later - free), preferred.ravel(), change * BEFORE])
-    expected = np.linalg.lstsq(rows, right)[0].reshape(6, NU)
+    unchanged = np.zeros(5 * NU)
+    right = [root * (later - free), preferred.ravel(), change * BEFORE, unchanged]
+    expected = np.linalg.lstsq(rows, np.concatenate(right))[0].reshape(6, NU)
     assert np.allclose(solved(problem).inputs, expected, rtol=0, atol=1e-6)
 
 
@@ -123,12 +125,13 @@ def test_solving_again_starts_from_the_solution(problem) -> None:
 def test_changed_weights_count_as_if_the_solver_had_been_made_with_them(
     problem, impossible
 ) -> None:
-    light = QPWeights(np.array([6000.0, 0.0, 1.0, 10.0]), np.array([1.0, 3.0]), np.zeros(2))
+    state, none = np.array([6000.0, 0.0, 1.0, 10.0]), np.zeros(2)
+    light = QPWeights(state, np.array([1.0, 3.0]), none, none)
     for each in (problem, impossible):
         made = stages_of(each)
         fresh, changed = TrackingQP(6, SPACE, light), TrackingQP(6, SPACE, WEIGHTS)
         for qp in (fresh, changed):
-            qp.prepare(made, np.arange(6), made)
+            qp.prepare(made, np.arange(6), made, dynamics_of(each))
         changed.solve(each[5], 0.0, DISTURBANCE, BEFORE)
         changed.weigh(light)
         changed.forget()
@@ -173,7 +176,7 @@ def test_bounds_on_p_y_that_cannot_be_kept_are_violated_as_little_as_possible(
 
 
 def test_inputs_keep_their_bounds_where_p_y_cannot(impossible) -> None:
-    assert np.abs(solved(impossible).inputs).max() <= 0.1 + 1e-5
+    assert np.abs(solved(impossible).inputs).max() <= 0.1 + 1e-4
 
 
 def test_opened_bounds_need_no_violation(impossible) -> None:
@@ -191,7 +194,7 @@ def test_where_the_bounds_can_be_kept_the_relaxed_problem_has_the_same_solution(
     assert relaxed.info.status_val == 1
     # hundredths of the solver's unit of 1 cm/s
     assert np.allclose(relaxed.x[first], recorded[-1][1].inputs[0] / SPACE.scale, atol=2e-2)
-    assert np.allclose(relaxed.x[exact.cost.size :], 0.0, atol=1e-3)
+    assert np.allclose(relaxed.x[exact.linear.size :], 0.0, atol=1e-3)
 
 
 def test_a_solution_that_is_refused_names_the_constraint_that_it_violates_most(
@@ -200,7 +203,7 @@ def test_a_solution_that_is_refused_names_the_constraint_that_it_violates_most(
     monkeypatch.setitem(OSQP_SETTINGS, 'max_iter', 5)
     qp = TrackingQP(6, SPACE, WEIGHTS)
     made = stages_of(impossible)
-    qp.prepare(made, np.arange(6), made)
+    qp.prepare(made, np.arange(6), made, dynamics_of(impossible))
     assert not qp.solve(impossible[5], 0.0, DISTURBANCE, BEFORE).usable
     qp._variables[:] = 0.0
     qp._low[:28] = qp._high[:28] = 0.0
@@ -214,8 +217,7 @@ def test_a_solution_that_is_refused_names_the_constraint_that_it_violates_most(
 
 def test_stages_give_back_what_they_were_made_of(problem) -> None:
     again = stages_of(problem).in_si_units(np.array([3, 1]))
-    given_parts = [*problem[:4], *problem[4]]
-    for given, found in zip(given_parts, [*again[:4], *again[4]], strict=True):
+    for given, found in zip([problem[3], *problem[4]], [again[0], *again[1]], strict=True):
         np.testing.assert_allclose(found, given[[3, 1]], rtol=1e-14, atol=1e-18)
 
 

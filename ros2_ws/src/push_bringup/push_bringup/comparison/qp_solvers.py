@@ -28,7 +28,7 @@ class Osqp:
 
     def __init__(self, first: Problem, **settings: Any) -> None:
         self._solver = osqp.OSQP()
-        cost = sparse.csc_matrix(sparse.diags_array(first.cost))
+        cost = _upper(first)
         # OSQP writes later numbers into the matrix that it was set up with
         matrix, low, high = first.matrix.copy(), first.low.copy(), first.high.copy()
         self._solver.setup(cost, first.linear.copy(), matrix, low, high, verbose=False, **settings)
@@ -101,7 +101,7 @@ class Piqp:
 
         self._solver = piqp.SparseSolver()
         self._split = _Split(first)
-        self._cost = sparse.csc_matrix(sparse.diags_array(first.cost))
+        self._cost = _upper(first)
         self._solver.setup(self._cost, first.linear, *self._split.parts(first))
 
     def solve(self, problem: Problem) -> tuple[Array, int]:
@@ -123,11 +123,11 @@ class ProxQp:
         qp = proxsuite.proxqp
         self._solver = qp.sparse.QP(first.linear.size, parts[0].shape[0], parts[2].shape[0])
         self._solver.settings.initial_guess = qp.WARM_START_WITH_PREVIOUS_RESULT
-        self._solver.init(self._cost, first.linear, *parts)
+        self._solver.init(first.cost, first.linear, *parts)
 
     def solve(self, problem: Problem) -> tuple[Array, int]:
         """See `Solver`."""
-        self._solver.update(self._cost, problem.linear, *self._split.parts(problem))
+        self._solver.update(problem.cost, problem.linear, *self._split.parts(problem))
         self._solver.solve()
         results = self._solver.results
         return np.array(results.x), int(results.info.iter)
@@ -143,7 +143,7 @@ class Clarabel:
         self._settings = clarabel.DefaultSettings()
         self._settings.verbose = False
         self._split = _Split(first)
-        self._cost = sparse.csc_matrix(sparse.diags_array(first.cost))
+        self._cost = _upper(first)
 
     def solve(self, problem: Problem) -> tuple[Array, int]:
         """See `Solver`."""
@@ -190,6 +190,11 @@ class _Split:
         )
 
 
+def _upper(problem: Problem) -> Any:
+    """The upper triangle of the cost, which is symmetric."""
+    return sparse.csc_matrix(sparse.triu(problem.cost))
+
+
 def _is_equation(problem: Problem) -> Array:
     return np.asarray(problem.low == problem.high)
 
@@ -208,8 +213,9 @@ def _condensed(problem: Problem) -> tuple[Array, ...]:
         dense[:n, :n], dynamics, lower=True, unit_diagonal=True, check_finite=False
     )
     offset, effect = solved[:, 0], solved[:, 1:]
-    weighted = problem.cost[:n, None] * effect
-    hessian = effect.T @ weighted + np.diag(problem.cost[n:])
+    cost = problem.cost.toarray()
+    weighted = cost[:n, :n] @ effect
+    hessian = effect.T @ weighted + cost[n:, n:]
     gradient = problem.linear[n:] + effect.T @ problem.linear[:n] + weighted.T @ offset
     rows = dense[n:, :n] @ effect + dense[n:, n:]
     shift = dense[n:, :n] @ offset

@@ -107,7 +107,7 @@ class _LapRecorder:
         self._truth_errors: list[float] = []
         self._path: list[tuple[float, float]] = []
         self._commands: list[Array] = []
-        self._slider = cell.plant.slider
+        self._slider = cell.plant.true_slider
         self._last: TrueState | None = None
 
     def on_tick(self, observation: Observation | None, tick: Tick, _tick_ms: float) -> None:

@@ -42,8 +42,8 @@ class SickSteering:
         return Move(np.full(2, np.nan), status, move.iterations, 'asked to fail', move.states)
 
 
-def _sick(settings: ControllerSettings, slider: Slider) -> Any:
-    return SickSteering(_make(settings, slider))
+def _sick(settings: ControllerSettings, slider: Slider, speed: float) -> Any:
+    return SickSteering(_make(settings, slider, speed))
 
 
 if __name__ == '__main__':

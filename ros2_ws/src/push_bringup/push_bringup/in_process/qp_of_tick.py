@@ -57,7 +57,7 @@ def _because(reason: str) -> str:
 def _solved(problem: Problem, settings: Mapping[str, object]) -> str:
     """Status, iterations and largest violation of a cold solve, in words."""
     solver = osqp.OSQP()
-    cost = sparse.diags_array(problem.cost, format='csc')
+    cost = sparse.csc_matrix(sparse.triu(problem.cost))
     solver.setup(cost, problem.linear, problem.matrix, problem.low, problem.high, **settings)
     result = solver.solve(raise_error=False)
     told = f'{result.info.status}, {result.info.iter} iterations'

@@ -10,7 +10,7 @@ from push_core.common import InterruptsHeld
 from push_core.geometry import Array, rotation, wrap_angle
 from push_core.physics import Slider, limit, slowed
 
-from push_mpc.estimate import ObjectFilter, Predictor
+from push_mpc.estimate import FaceEstimator, ObjectFilter, Predictor
 from push_mpc.loop.guard import Guard
 from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
 from push_mpc.loop.prepared_model import PreparedModel
@@ -25,6 +25,7 @@ from push_mpc.table import Table
 _STILL = np.zeros(2)
 _RAISED = 0  # status of a solver that raised an exception
 _LEARNED_CHANGE = 1.5  # of a plan with an identified model, see `consistent_plan`
+_DELAYS = 3.0  # of the robot; shortest filter of the model error
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
@@ -43,8 +44,9 @@ class Controller:
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider, settings.command_timeout)
         self._guard = Guard(settings, slider)
-        self._filter = ObjectFilter(settings.disturbance_length, slider)
-        self._steering = _steering(settings, slider)
+        self._filter = ObjectFilter(filter_length(settings, plan.speed), slider)
+        self._face = FaceEstimator(slider)
+        self._steering = _steering(settings, slider, plan.speed)
         # OSQP has a handler of its own while it solves
         self._interrupts_held = InterruptsHeld()
         self._stride = horizon_stride(plan, settings)
@@ -56,7 +58,8 @@ class Controller:
         self._placement: Placement | None = None
         self._sent = _STILL
         self._seen = 0
-        self._tip, self._exposure = _STILL, -math.inf
+        self._tip = self._touching = _STILL
+        self._exposure = -math.inf
         self._reference = ReferenceClock()
         self._failures_in_a_row = 0
         self.solver_failures = 0
@@ -94,7 +97,7 @@ class Controller:
     def prepare_model(
         self, table: Table, model_id: str, lesson: Lesson | None = None
     ) -> PreparedModel:
-        """Plans with a model and linearises along the track; safe to call in another thread.
+        """Plans with a model and computes what the QPs need; safe to call in another thread.
 
         Args:
             table: the model.
@@ -106,8 +109,8 @@ class Controller:
         if self.settings.consistent_plan:
             plan = self._consistent(plan, table, lesson) or plan
         steering = self._steering.of_slider(lesson.slider or self._slider)
-        linearised = steering.linearised(table, plan, self._stride)
-        return PreparedModel(table, plan, linearised, model_id, lesson.slider or self._slider)
+        staged = steering.staged(table, plan, self._stride)
+        return PreparedModel(table, plan, staged, model_id, lesson.slider or self._slider)
 
     def _consistent(self, plan: Plan, table: Table, lesson: Lesson) -> Plan | None:
         """The plan that agrees with a model's motion, None if none is found."""
@@ -125,8 +128,8 @@ class Controller:
         first = self._model is None
         self._steering = self._steering.of_slider(model.slider)
         # limits may have changed since it was prepared
-        bounded = self._steering.bounded(model.linearised)
-        model = self._along_track = replace(model, linearised=bounded)
+        bounded = self._steering.bounded(model.staged)
+        model = self._along_track = replace(model, staged=bounded)
         self._model = model.placed(self._placement) if self._placement else model
         if first:
             self._warm_up()
@@ -147,8 +150,9 @@ class Controller:
             self._prepare(self._model, sample)
             if self.mode not in FOLLOWING:
                 self._warm_up()
-        if settings.disturbance_length != self._filter.length:
-            self._filter.change(settings.disturbance_length)
+        length = filter_length(settings, self.plan.speed)
+        if length != self._filter.length:
+            self._filter.change(length)
 
     def arm(self, start: Array | None = None) -> None:
         """Holds the tip at rest until enough poses have arrived, then tracks the plan.
@@ -167,6 +171,7 @@ class Controller:
         self._filter.reset()
         self._exposure = -math.inf
         self._guard.reset()
+        self._face.reset()
         self._warm_up()
 
     def _place(self, start: Array | None) -> None:
@@ -245,7 +250,7 @@ class Controller:
         self._see(object_pose, tip, exposure)
         tick = self._commanded(self._follow(now), now)
         tick.state = self._state(object_pose, tip)
-        tick.gap = self._slider.gap(object_pose, tip)
+        tick.gap = self._slider.gap(object_pose, self._face.touching(object_pose, tip))
         if running:
             tick.reference_time = self._reference.at(exposure)
             tick.innovation = self._filter.innovation
@@ -254,12 +259,15 @@ class Controller:
 
     def _see(self, object_pose: Array, tip: Array, exposure: float) -> None:
         """Updates the estimate, and ends a run that is over or cannot go on."""
-        self._tip, self._exposure = tip, exposure
+        self._tip = self._touching = tip
+        self._exposure = exposure
         if self.mode == Mode.ARMED:
             self._filter.settle(object_pose, tip, exposure)
         if self.mode not in FOLLOWING or self._model is None:
             return
-        self._filter.observe(self._model.table, object_pose, tip, exposure)
+        self._face.observe(object_pose, tip)
+        self._touching = self._face.touching(object_pose, tip)
+        self._filter.observe(self._model.table, object_pose, self._touching, exposure)
         reference_time = self._reference.at(exposure)
         if reference_time >= self.plan.duration:
             self._machine.take(Event.END)
@@ -276,8 +284,8 @@ class Controller:
     def _warm_up(self) -> None:
         """Solves at the start of the plan, so that a run depends on none before it."""
         if self._model is not None:
-            for solver in self._steering.solvers:
-                solver.forget()
+            self._steering.forget()
+            self._prepared = ('', -1)
             self._solve(self._model.plan.state[0], 0.0)
 
     def _slow_down(self, tick: Tick, now: float) -> Tick:
@@ -316,7 +324,7 @@ class Controller:
         """Predicts from the newest estimate, tracks the reference and limits the command."""
         if self.mode not in FOLLOWING or self._model is None:
             return Tick(self.mode, _STILL)
-        pose, tip, acts_at = self._filter.pose, self._tip, self._exposure
+        pose, tip, acts_at = self._filter.pose, self._touching, self._exposure
         if self.settings.delay_compensation:
             acts_at = now + self._predictor.horizon
             pose, tip = self._predictor.predict(
@@ -341,7 +349,7 @@ class Controller:
 
     def _watch_contact(self, predicted_gap: float) -> None:
         """Switches between tracking and recontact, by the estimated and the predicted gap [m]."""
-        pose, tip = self._filter.pose, self._tip
+        pose, tip = self._filter.pose, self._touching
         gap = self._slider.gap(pose, tip)
         left = departure(self._slider, gap, self._slider.contact_offset(pose, tip))
         if left:
@@ -357,6 +365,7 @@ class Controller:
         assert self._model is not None
         if self.mode != Mode.RECONTACT:
             return self._solve(predicted, reference_time)
+        self._steering.forget()
         reference, nominal = self._model.plan.at(reference_time)
         velocity = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
         tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=velocity)
@@ -399,7 +408,7 @@ class Controller:
         try:
             with self._interrupts_held:
                 return self._steering.solve(
-                    model.linearised,
+                    model.staged,
                     state,
                     deviation,
                     reference_time,
@@ -429,7 +438,7 @@ class Controller:
             return
         # the horizon stays at the plan's last sample
         np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._samples)
-        self._steering.prepare(model.linearised, self._samples[:-1])
+        self._steering.prepare(model.staged, self._samples)
         self._prepared = (model.model_id, sample)
 
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
@@ -446,16 +455,26 @@ class Controller:
         tick.input = turn.T @ tick.velocity
 
 
-def _steering(settings: ControllerSettings, slider: Slider) -> Steering:
+def _steering(settings: ControllerSettings, slider: Slider, speed: float) -> Steering:
     steering_class = resolve_name(CONTROLLERS[settings.controller].steering)
-    steering: Steering = steering_class(settings, slider)
+    steering: Steering = steering_class(settings, slider, speed)
     return steering
+
+
+def filter_length(settings: ControllerSettings, speed: float) -> float:
+    """Travel [m] over which the model error is estimated along a plan of a speed [m/s].
+
+    The commands under way cannot answer to an estimate: it must not change faster than they do.
+    """
+    if settings.disturbance_length == 0.0 or not settings.relinearise:
+        return settings.disturbance_length
+    delay = settings.actuator.dead_time + settings.actuator.lag
+    return max(settings.disturbance_length, _DELAYS * speed * delay)
 
 
 def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
     """Plan samples per horizon step, from `horizon_step` [s] or else `horizon_length` [m]."""
     if settings.horizon_step > 0.0:
         return max(1, round(settings.horizon_step / plan.period))
-    speed = math.hypot(*np.diff(plan.state[:2, :2], axis=0)[0]) / plan.period
-    step = settings.horizon_length / settings.horizon_steps / speed
+    step = settings.horizon_length / settings.horizon_steps / plan.speed
     return max(1, round(step / plan.period))

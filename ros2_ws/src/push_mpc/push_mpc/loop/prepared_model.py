@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from push_core.physics import Slider
 
 from push_mpc.plan import Placement, Plan
-from push_mpc.qp import LinearisedPlan
+from push_mpc.qp import StagedPlan
 from push_mpc.table import Table
 
 
@@ -16,14 +16,14 @@ class PreparedModel:
     Attributes:
         table: the model.
         plan: made with it.
-        linearised: QP data along the plan.
+        staged: QP data along the plan.
         model_id: of the model, and of what laps have taught beside it.
         slider: whose friction and support radius the QPs take.
     """
 
     table: Table
     plan: Plan
-    linearised: LinearisedPlan
+    staged: StagedPlan
     model_id: str
     slider: Slider
 
@@ -32,5 +32,5 @@ class PreparedModel:
         return replace(
             self,
             plan=placement.of(self.plan),
-            linearised=self.linearised.placed(placement),
+            staged=self.staged.placed(placement),
         )

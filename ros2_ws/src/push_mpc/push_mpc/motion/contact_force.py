@@ -13,7 +13,8 @@ import numpy as np
 from push_core.geometry import Array
 from push_core.physics import LimitSurface, Slider, contact_jacobian, point_contact
 
-from push_mpc.motion.dynamics import disturbed, to_rates
+from push_mpc.motion.dynamics import contact_row, disturbed, to_rates
+from push_mpc.motion.expansion import Expansion
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,36 @@ class ContactForce:
         along = velocity[:, 0] - state[:, 3] * velocity[:, 2]
         aside = velocity[:, 1] + self.slider.p_x * velocity[:, 2] + inputs[:, 2]
         return disturbed(np.hypot(along, aside), state[:, 2], self.slider.tip_x)
+
+    def expand(self, state: Array, inputs: Array, into: Expansion) -> None:
+        """See `Motion.expand`."""
+        (f_n, f_t, slip), (w_x, w_y, w_turn) = inputs.T, self._weights
+        p_x, p_y = self.slider.p_x, state[:, 3]
+        speed, along, aside, turn = into.scratch
+        twist = into.twist
+        np.multiply(f_n, w_x, out=along)
+        np.multiply(f_t, w_y, out=aside)
+        twist[:, 0, 0], twist[:, 1, 0] = along, aside
+        np.multiply(f_n, -w_turn, out=twist[:, 2, 1])
+        np.multiply(twist[:, 2, 1], p_y, out=turn)
+        np.multiply(f_t, w_turn * p_x, out=twist[:, 2, 0])
+        twist[:, 2, 0] += turn
+        twist[:, 0, 2], twist[:, 1, 3] = w_x, w_y
+        np.multiply(p_y, -w_turn, out=twist[:, 2, 2])
+        twist[:, 2, 3] = w_turn * p_x
+        # the speed of the tip: that of the contact point, and the slip along the face
+        turn[:] = twist[:, 2, 0]
+        np.multiply(turn, p_y, out=speed)
+        along -= speed
+        np.multiply(turn, p_x, out=speed)
+        aside += speed
+        aside += slip
+        np.hypot(along, aside, out=speed)
+        into.set_error(speed)
+        rolling = np.array([0.0, 0.0, self.slider.tip_radius])
+        into.turn(state[:, 2], rolling, contact_row(self.slider.tip_x))
+        into.rates[:, 3] += slip
+        into.by_input[:, 3, 2] += 1.0
 
     def tip_velocity(self, p_y: float, force: Array) -> Array:
         """Tip velocity (2,) [m/s] in the body frame that produces an input (3,)."""

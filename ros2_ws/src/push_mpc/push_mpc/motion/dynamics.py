@@ -11,12 +11,23 @@ from typing import Protocol
 import numpy as np
 from push_core.geometry import Array
 
+from push_mpc.motion.expansion import Expansion
+
+_SLOWEST = 1e-9  # [m/s]; a tip at rest has no direction
+
 
 class TravelModel(Protocol):
     """Displacement rates of the object per metre of pusher travel."""
 
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Rates (n, 3) [1, 1, rad/m] in the body frame and Jacobian (n, 3, 2) by [p_y, beta]."""
+
+
+class TabulatedModel(TravelModel, Protocol):
+    """A model that is evaluated in every tick."""
+
+    def lookup(self, points: int) -> TravelModel:
+        """The model for always as many points; it allocates nothing to evaluate them."""
 
 
 class Motion(Protocol):
@@ -30,6 +41,9 @@ class Motion(Protocol):
 
     def disturbed(self, state: Array, inputs: Array) -> Array:
         """Derivative (n, 4, 3) of `rates` by a model error (twist per metre of travel)."""
+
+    def expand(self, state: Array, inputs: Array, into: Expansion) -> None:
+        """All of the above, into arrays that exist."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +69,29 @@ class TravelMotion:
     def disturbed(self, state: Array, inputs: Array) -> Array:
         """Derivative (n, 4, 3) of `rates` by a model error (twist per metre of travel)."""
         return disturbed(np.hypot(*inputs.T), state[:, 2], self.tip_x)
+
+    def expand(self, state: Array, inputs: Array, into: Expansion) -> None:
+        """See `Motion.expand`; allocates what its model allocates."""
+        v_n, v_t = inputs.T
+        speed, ahead, aside, beta = into.scratch
+        np.hypot(v_n, v_t, out=speed)
+        np.maximum(speed, _SLOWEST, out=speed)
+        np.divide(v_n, speed, out=ahead)
+        np.divide(v_t, speed, out=aside)
+        np.arctan2(v_n, v_t, out=beta)
+        rate, jacobian = self.model.evaluate(state[:, 3], beta)
+        by_p_y, by_beta = jacobian[:, :, 0], jacobian[:, :, 1]
+        np.multiply(rate, speed[:, None], out=into.twist[:, :, 0])
+        np.multiply(by_p_y, speed[:, None], out=into.twist[:, :, 1])
+        # d(speed) = [ahead, aside] dv and speed d(beta) = [aside, -ahead] dv
+        into.combine(rate, ahead, by_beta, aside, into.twist[:, :, 2])
+        np.negative(ahead, out=ahead)
+        into.combine(rate, aside, by_beta, ahead, into.twist[:, :, 3])
+        into.set_error(speed)
+        row = contact_row(self.tip_x)
+        into.turn(state[:, 2], row, row)
+        into.rates[:, 3] += v_t
+        into.by_input[:, 3, 1] += 1.0
 
 
 def rates(model: TravelModel, state: Array, inputs: Array, tip_x: float) -> Array:
@@ -97,34 +134,17 @@ def disturbed(speed: Array, heading: Array, tip_x: float) -> Array:
     return np.stack(columns, axis=-1)
 
 
-def discretised(
-    by_state: Array, by_inputs: Array, stride: int, period: float
-) -> tuple[Array, Array]:
-    """Transition matrices over `stride` samples of `period` [s], from each sample onwards.
-
-    Products of the first-order transitions of the samples in between; the last sample is held.
-
-    Returns:
-        A (n, 4, 4) and B (n, 4, m), as wide as `by_inputs`, with x_{i+1} = A x_i + B u_i for a
-        constant input.
-    """
-    count = len(by_state)
-    transition = np.tile(np.eye(4), (count, 1, 1))
-    effect = np.zeros_like(by_inputs)
-    for offset in range(stride):
-        index = np.minimum(np.arange(count) + offset, count - 1)
-        step = np.eye(4) + period * by_state[index]
-        effect = step @ effect + period * by_inputs[index]
-        transition = step @ transition
-    return transition, effect
-
-
 def to_rates(twist: Array, contact: Array, heading: Array) -> Array:
     """Rates (n, 4) of the state for body twists (n, 3), rates of p_y (n,) and headings (n,)."""
     cos, sin = np.cos(heading), np.sin(heading)
     x = cos * twist[:, 0] - sin * twist[:, 1]
     y = sin * twist[:, 0] + cos * twist[:, 1]
     return np.stack([x, y, twist[:, 2], contact], axis=-1)
+
+
+def contact_row(tip_x: float) -> Array:
+    """Rate of p_y for each part of a twist (3,), for a tip at rest."""
+    return np.array([0.0, -1.0, -tip_x])
 
 
 def _contact(twist: Array, tip_x: float) -> Array:
@@ -135,7 +155,7 @@ def _contact(twist: Array, tip_x: float) -> Array:
 def _twist(model: TravelModel, state: Array, inputs: Array) -> tuple[Array, Array, Array]:
     """Body twist (n, 3), its derivative by p_y (n, 3) and by the input (n, 3, 2)."""
     v_n, v_t = inputs.T
-    speed = np.maximum(np.hypot(v_n, v_t), 1e-9)
+    speed = np.maximum(np.hypot(v_n, v_t), _SLOWEST)
     rate, jacobian = model.evaluate(state[:, 3], np.arctan2(v_n, v_t))
     speed_by_input = inputs / speed[:, None]
     beta_by_input = np.stack([v_t, -v_n], axis=-1) / speed[:, None]

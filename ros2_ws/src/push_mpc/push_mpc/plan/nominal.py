@@ -45,6 +45,11 @@ class Plan:
         """Time of every sample [s], (n,)."""
         return self.period * np.arange(len(self.state))
 
+    @property
+    def speed(self) -> float:
+        """Speed [m/s] of the object at the start."""
+        return math.hypot(*np.diff(self.state[:2, :2], axis=0)[0]) / self.period
+
     def at(self, time: float) -> tuple[Array, Array]:
         """State (4,) and input (2,) at a time [s], held constant outside the plan."""
         place = min(max(time / self.period, 0.0), len(self.state) - 1.0)

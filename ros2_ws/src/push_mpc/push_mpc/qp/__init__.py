@@ -5,17 +5,17 @@ from push_mpc.qp.planned_states import PlannedStates
 from push_mpc.qp.problem import Problem
 from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX
-from push_mpc.qp.steering import LinearisedPlan, Move, Steering
+from push_mpc.qp.steering import Move, StagedPlan, Steering
 from push_mpc.qp.velocity_steering import VelocitySteering
 
 __all__ = [
     'NX',
     'OSQP_SETTINGS',
     'ForceSteering',
-    'LinearisedPlan',
     'Move',
     'PlannedStates',
     'Problem',
+    'StagedPlan',
     'Steering',
     'VelocitySteering',
 ]

@@ -12,12 +12,13 @@ import numpy as np
 from push_core.geometry import Array
 from push_core.physics import ContactMode, LimitSurface, Slider
 
-from push_mpc.motion import ContactForce, TravelModel, TravelMotion
+from push_mpc.motion import ContactForce, TabulatedModel, TravelMotion
 from push_mpc.plan import Plan
-from push_mpc.qp.preview import Preview
+from push_mpc.qp.iteration import RealTimeIteration
 from push_mpc.qp.solution import Solution
 from push_mpc.qp.stages import InputSpace, Stages
-from push_mpc.qp.steering import LinearisedPlan, Move
+from push_mpc.qp.steady_shift import steady_shift
+from push_mpc.qp.steering import Move, StagedPlan, contact_after, mean_over_steps
 from push_mpc.qp.tracking_qp import QPWeights, TrackingQP
 from push_mpc.settings import ControllerSettings
 
@@ -35,8 +36,8 @@ class ForceSteering:
 
     solvers: tuple[TrackingQP, ...]
 
-    def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
-        self._settings = settings
+    def __init__(self, settings: ControllerSettings, slider: Slider, speed: float) -> None:
+        self._settings, self._speed = settings, speed
         self._motion = ContactForce(slider)
         self._space = _space(slider)
         self.mode = ContactMode.STICKING
@@ -44,26 +45,31 @@ class ForceSteering:
         self.solvers = tuple(
             TrackingQP(settings.horizon_steps, self._space, weights) for _ in FAMILY
         )
+        self._iteration = RealTimeIteration(
+            settings.horizon_steps, self._space.size, relinearise=False
+        )
 
-    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
-        """See `Steering.linearised`.
+    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
+        """See `Steering.staged`.
 
         The derivatives are those of the slider's limit surface, the motion along the plan is the
         model's: the estimate of the model error is relative to the latter.
         """
         forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
         rates = TravelMotion(model, self._motion.slider.tip_x).rates(plan.state, plan.input)
-        preview = Preview.of(forces, self._motion, stride, rates)
+        excess = rates - self._motion.rates(forces.state, forces.input)
+        contact, mean = contact_after(plan, stride), mean_over_steps(forces.input, stride)
+        target = steady_shift(self._motion, forces)
         stages = [
-            Stages.of(self._space, preview, self._limits(preview.contact, forces.input, mode))
-            for mode in FAMILY
+            Stages.of(self._space, target, self._limits(contact, mean, mode)) for mode in FAMILY
         ]
-        return LinearisedPlan(forces, preview.contact, tuple(stages))
+        excess = mean_over_steps(excess, stride)
+        return StagedPlan(forces, self._motion, stride, contact, mean, excess, tuple(stages))
 
     def of_slider(self, slider: Slider) -> 'ForceSteering':
         """See `Steering.of_slider`."""
         same = slider == self._motion.slider
-        return self if same else ForceSteering(self._settings, slider)
+        return self if same else ForceSteering(self._settings, slider, self._speed)
 
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""
@@ -71,24 +77,30 @@ class ForceSteering:
         for solver in self.solvers:
             solver.weigh(_weights(settings, self._space))
 
-    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
+    def bounded(self, staged: StagedPlan) -> StagedPlan:
         """See `Steering.bounded`."""
-        forces = linearised.plan.input
         stages = [
-            stages.within(self._limits(linearised.contact, forces, mode))
-            for stages, mode in zip(linearised.stages, FAMILY, strict=True)
+            stages.within(self._limits(staged.contact, staged.mean_input, mode))
+            for stages, mode in zip(staged.stages, FAMILY, strict=True)
         ]
-        return replace(linearised, stages=tuple(stages))
+        return replace(staged, stages=tuple(stages))
 
-    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
+    def prepare(self, staged: StagedPlan, samples: Array) -> None:
         """See `Steering.prepare`."""
-        sticking = linearised.stages[0]
-        for solver, first in zip(self.solvers, linearised.stages, strict=True):
-            solver.prepare(sticking, window, first)
+        dynamics = self._iteration.prepare(staged, samples)
+        sticking = staged.stages[0]
+        for solver, first in zip(self.solvers, staged.stages, strict=True):
+            solver.prepare(sticking, samples[:-1], first, dynamics)
+
+    def forget(self) -> None:
+        """See `Steering.forget`."""
+        self._iteration.forget()
+        for solver in self.solvers:
+            solver.forget()
 
     def solve(
         self,
-        linearised: LinearisedPlan,
+        staged: StagedPlan,
         state: Array,
         deviation: Array,
         time: float,
@@ -97,11 +109,12 @@ class ForceSteering:
         sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        nominal = linearised.plan.at(time)[1]
+        nominal = staged.plan.at(time)[1]
         before = self._motion.input_of(state[3], *sent.tolist()) - nominal
         solutions = [each.solve(deviation, widening, disturbance, before) for each in self.solvers]
         index, best = min(enumerate(solutions), key=_rank)
         self.mode = FAMILY[index]
+        self._iteration.keep(best)
         velocity = self._within_limit(
             self._motion.tip_velocity(state[3], nominal + best.inputs[0])
         )
@@ -139,6 +152,7 @@ def _weights(settings: ControllerSettings, space: InputSpace) -> QPWeights:
         np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
         np.array([weights.normal, weights.tangential, weights.slip]),
         weights.change * (_SPEED / space.scale) ** 2,
+        np.zeros(space.size),
     )
 
 

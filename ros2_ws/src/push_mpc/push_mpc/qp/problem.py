@@ -9,13 +9,13 @@ from scipy import sparse
 
 @dataclass(frozen=True)
 class Problem:
-    """The QP of one tick: min 1/2 z^T diag(cost) z + linear^T z, low <= matrix z <= high.
+    """The QP of one tick: min 1/2 z^T cost z + linear^T z, low <= matrix z <= high.
 
     The variables z are the states, 4 (N + 1) of them, then the inputs. The rows are the dynamics,
     one for each state, then the limits.
 
     Attributes:
-        cost: diagonal of the quadratic part (n,).
+        cost: quadratic part, symmetric (n, n).
         linear: linear part (n,).
         matrix: constraints (rows, n).
         low: lower bounds (rows,).
@@ -24,7 +24,7 @@ class Problem:
         units: SI values of the units of the variables (n,), of the rows (rows,) and of the cost.
     """
 
-    cost: Array
+    cost: sparse.csc_matrix
     linear: Array
     matrix: sparse.csc_matrix
     low: Array
@@ -35,13 +35,12 @@ class Problem:
     def in_si_units(self) -> 'Problem':
         """The same problem in SI units."""
         variables, rows, cost = self.units
-        matrix = sparse.csc_matrix(
-            sparse.diags_array(rows) @ self.matrix @ sparse.diags_array(1.0 / variables)
-        )
+        scale = sparse.diags_array(1.0 / variables)
+        matrix = sparse.csc_matrix(sparse.diags_array(rows) @ self.matrix @ scale)
         matrix.sort_indices()
         ones = np.ones_like(variables), np.ones_like(rows), 1.0
         return Problem(
-            self.cost * cost / variables**2,
+            sparse.csc_matrix(cost * (scale @ self.cost @ scale)),
             self.linear * cost / variables,
             matrix,
             self.low * rows,

@@ -15,7 +15,7 @@ import numpy as np
 from push_core.geometry import Array
 from scipy import sparse
 
-from push_mpc.qp.solver import forget, run, set_up
+from push_mpc.qp.solver import forget, run, set_up, upper_triangle
 
 _WEIGHT = 100.0
 """w, in the solver's units. With ten times as much, one QP of three needs more than the iteration
@@ -25,29 +25,28 @@ limit."""
 class RelaxedQP:
     """See the module; set up once, only numbers change from solve to solve."""
 
-    def __init__(self, cost: Array, matrix: sparse.csc_matrix, soft: Array) -> None:
+    def __init__(self, cost: sparse.csc_matrix, matrix: sparse.csc_matrix, soft: Array) -> None:
         """Sets the solver up.
 
         Args:
-            cost: diagonal of the quadratic cost of the QP (n,).
+            cost: quadratic cost of the QP (n, n).
             matrix: of its constraints (rows, n); the sparsity stays.
             soft: indices of the rows that may be violated (k,).
         """
         rows, size = matrix.shape
-        self._violations = violations = 2 * soft.size
+        violations = 2 * soft.size
         self._entries_given = matrix.nnz
         self._linear = np.concatenate([np.zeros(size), np.full(violations, _WEIGHT)])
         self._low = np.zeros(rows + violations)
         self._high = np.concatenate([np.zeros(rows), np.full(violations, np.inf)])
         wider = _with_violations(matrix, soft)
         self._entries = wider.data.copy()
-        self._solver = set_up(
-            np.concatenate([cost, np.zeros(violations)]), self._linear.copy(), wider
-        )
+        free = sparse.csc_matrix((violations, violations))
+        self._solver = set_up(sparse.block_diag([cost, free]), self._linear.copy(), wider)
 
-    def weigh(self, cost: Array) -> None:
-        """Changes the diagonal of the quadratic cost of the QP (n,)."""
-        self._solver.update(Px=np.concatenate([cost, np.zeros(self._violations)]))
+    def weigh(self, cost: sparse.csc_matrix) -> None:
+        """Changes the quadratic cost of the QP (n, n); the sparsity stays."""
+        self._solver.update(Px=upper_triangle(cost).data)
 
     def forget(self) -> None:
         """Lets the next solve depend on no earlier one."""

@@ -23,15 +23,18 @@ OSQP_SETTINGS = {
 }
 
 
-def set_up(cost: Array, linear: Array, matrix: sparse.csc_matrix) -> osqp.OSQP:
-    """A solver for a diagonal cost (n,), with bounds of zero until they are updated."""
+def set_up(cost: sparse.csc_matrix, linear: Array, matrix: sparse.csc_matrix) -> osqp.OSQP:
+    """A solver for a symmetric cost (n, n), with bounds of zero until they are updated."""
     solver = osqp.OSQP()
     rows = matrix.shape[0]
-    # keeps zeros as entries, so that weights of zero can be changed
-    index = np.arange(cost.size + 1)
-    diagonal = sparse.csc_matrix((cost, index[:-1], index))
-    solver.setup(diagonal, linear, matrix, [0.0] * rows, [0.0] * rows, **OSQP_SETTINGS)
+    upper = upper_triangle(cost)
+    solver.setup(upper, linear, matrix, [0.0] * rows, [0.0] * rows, **OSQP_SETTINGS)
     return solver
+
+
+def upper_triangle(cost: sparse.csc_matrix) -> sparse.csc_matrix:
+    """What OSQP takes of a symmetric cost; entries that are zero stay entries."""
+    return sparse.csc_matrix(sparse.triu(cost))
 
 
 def run(solver: osqp.OSQP) -> Any:

@@ -4,6 +4,9 @@ import numpy as np
 from push_core.common import InputError
 from push_core.geometry import Array
 
+from push_mpc.motion import Motion
+from push_mpc.plan import Plan
+
 # weights of the rates: 1 rad counts like 30 mm; the rate of p_y matters least
 _WORTH = np.array([1.0, 1.0, 0.03, 0.1])
 _EASE = np.array([0.1, 0.005])  # [rad], [m]; changes of theta and p_y that cost the same
@@ -11,16 +14,15 @@ _INPUT_EASE = 0.25  # of the nominal speed; a change of the input that costs the
 _DAMPING = 1e-4
 
 
-def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
+def steady_shift(motion: Motion, plan: Plan) -> Array:
     """The smallest change of state and input that keeps the planned rates under a disturbance.
 
     The planned rates cannot always be kept exactly, since a contact that sticks or slides does not
     reach all four rates. Hence damped least squares.
 
     Args:
-        by_state: derivative of the rates by the state (n, 4, 4).
-        by_input: by the input (n, 4, m).
-        by_twist: by the disturbance, a twist per metre of travel (n, 4, 3).
+        motion: of object and contact.
+        plan: n samples; its inputs are those of the motion, m of them.
 
     Returns:
         Derivative (n, 4 + m, 3) of the change of state and input by the disturbance; the position
@@ -29,6 +31,8 @@ def steady_shift(by_state: Array, by_input: Array, by_twist: Array) -> Array:
     Raises:
         InputError: the model's displacement rates are implausibly large.
     """
+    by_state, by_input = motion.linearised(plan.state, plan.input)
+    by_twist = motion.disturbed(plan.state, plan.input)
     speed = by_twist[:, 2, 2]
     worth = _WORTH[:, None] / speed[:, None, None]
     strength = np.linalg.norm(_WORTH[:, None] * by_input, axis=1)

@@ -8,10 +8,11 @@ and contact mode, with the limit surface of the object.
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from push_core.geometry import Array
+import numpy as np
+from push_core.geometry import Array, rotation
 from push_core.physics import Slider
 
-from push_mpc.motion import TravelModel
+from push_mpc.motion import Motion, TabulatedModel
 from push_mpc.plan import Placement, Plan
 from push_mpc.qp.stages import Stages
 from push_mpc.qp.tracking_qp import TrackingQP
@@ -19,23 +20,54 @@ from push_mpc.settings import ControllerSettings
 
 
 @dataclass(frozen=True)
-class LinearisedPlan:
+class StagedPlan:
     """The QP data along one plan; computed once for each plan and model.
 
     Attributes:
         plan: its inputs are those of the QPs: tip velocities, or contact forces and slip.
-        contact: nominal p_y at the end of the stage that begins at each sample (n,) [m].
-        stages: linearised stages along the plan, for each QP of the controller.
+        motion: equations of motion of the QPs.
+        stride: samples of the plan in a step of the horizon.
+        contact: nominal p_y at the end of the step that begins at each sample (n,) [m].
+        mean_input: of the plan over that step (n, m).
+        excess: rates of the state along the plan beyond those of `motion`, mean over the step,
+            where a model knows them better (n, 4).
+        stages: targets and bounds along the plan, for each QP of the controller.
     """
 
     plan: Plan
+    motion: Motion
+    stride: int
     contact: Array
+    mean_input: Array
+    excess: Array
     stages: tuple[Stages, ...]
 
-    def placed(self, placement: Placement) -> 'LinearisedPlan':
-        """The same along the plan moved; the equations of motion do not depend on the place."""
-        stages = tuple(each.turned(placement.turn) for each in self.stages)
-        return replace(self, plan=placement.of(self.plan), stages=stages)
+    @property
+    def step(self) -> float:
+        """Duration of a step of the horizon [s]."""
+        return self.stride * self.plan.period
+
+    def placed(self, placement: Placement) -> 'StagedPlan':
+        """The same along the plan moved."""
+        excess = self.excess.copy()
+        excess[:, :2] = excess[:, :2] @ rotation(placement.turn).T
+        return replace(self, plan=placement.of(self.plan), excess=excess)
+
+
+def mean_over_steps(values: Array, stride: int) -> Array:
+    """Mean of samples (n, m) over the step of `stride` samples after each; the last one is held.
+
+    The trapezoidal rule.
+    """
+    samples = np.arange(len(values))[:, None] + np.arange(stride + 1)
+    held = values[np.minimum(samples, len(values) - 1)]
+    return np.asarray((held[:, 1:] + held[:, :-1]).mean(axis=1) * 0.5)
+
+
+def contact_after(plan: Plan, stride: int) -> Array:
+    """p_y (n,) [m] of the plan at the end of the step after each sample."""
+    ahead = np.minimum(np.arange(len(plan.state)) + stride, len(plan.state) - 1)
+    return np.asarray(plan.state[ahead, 3])
 
 
 @dataclass(frozen=True)
@@ -71,8 +103,8 @@ class Steering(Protocol):
 
     solvers: tuple[TrackingQP, ...]
 
-    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
-        """Linearises a model along a plan, in stages of `stride` samples.
+    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
+        """Computes what the QPs need along a plan, in steps of `stride` samples.
 
         Does not touch the solvers, so it may run in another thread.
         """
@@ -83,15 +115,25 @@ class Steering(Protocol):
     def change(self, settings: ControllerSettings) -> None:
         """Uses other weights and speed limits; see `bounded` for plans that exist."""
 
-    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
-        """A linearised plan with the speed limits in effect."""
+    def bounded(self, staged: StagedPlan) -> StagedPlan:
+        """A plan with the speed limits in effect."""
 
-    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
-        """Loads the stages (N,) of the next horizon into the solvers, before the poses arrive."""
+    def prepare(self, staged: StagedPlan, samples: Array) -> None:
+        """Prepares the solvers for the next horizon, before the poses arrive.
+
+        Linearises the motion along the last solution.
+
+        Args:
+            staged: the plan.
+            samples: of the plan, at the ends of the steps of the horizon (N + 1,).
+        """
+
+    def forget(self) -> None:
+        """Lets the next tick depend on no earlier one."""
 
     def solve(
         self,
-        linearised: LinearisedPlan,
+        staged: StagedPlan,
         state: Array,
         deviation: Array,
         time: float,
@@ -102,7 +144,7 @@ class Steering(Protocol):
         """Solves the prepared QPs.
 
         Args:
-            linearised: the plan of which `prepare` loaded a window.
+            staged: the plan for which `prepare` was called.
             state: predicted state (4,) at the time when the command acts.
             deviation: of that state from the nominal (4,) [m, m, rad, m].
             time: of the plan [s].

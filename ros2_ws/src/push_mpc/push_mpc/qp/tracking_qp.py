@@ -1,16 +1,17 @@
 """The QP of one tick: set up once, then prepare and solve in every tick.
 
     min  sum_i  (x_i - g_i)^T Q (x_i - g_i) + (u_i - h_i)^T R (u_i - h_i)
-         + (u_0 - b)^T S (u_0 - b)
+         + (u_0 - b)^T S (u_0 - b) + sum_i (u_{i+1} - u_i)^T T (u_{i+1} - u_i)
     s.t. x_{i+1} = A_i x_i + B_i u_i + c_i,  x_0 given,
          bounds on p_y of every state but the first, and on combinations of each u_i
 
 in deviations from the nominal. c, g and h are linear in the disturbance; b is the last command. S
-penalises the change from that command, which follows the measurement noise otherwise. OSQP gets
-the problem in millimetres, with the cost divided by the largest weight. With this scaling its
-longest solve times are an order of magnitude shorter than in SI units, and its own scaling only
-takes time. The first input is within 2e-4 m/s of that of an independent solver; polishing would
-remove this difference for a third more time.
+penalises the change from that command, which follows the measurement noise otherwise. T does the
+same for later inputs: without it a fast move is cheaper in the second step than in the first, and
+is put off from tick to tick. OSQP gets the problem in millimetres, with the cost divided by the
+largest weight. With this scaling its longest solve times are an order of magnitude shorter than in
+SI units, and its own scaling only takes time. The first input is within 2e-4 m/s of that of an
+independent solver; polishing would remove this difference for a third more time.
 """
 
 from dataclasses import dataclass, replace
@@ -23,7 +24,7 @@ from scipy import sparse
 from push_mpc.qp.problem import Problem
 from push_mpc.qp.relaxed_qp import RelaxedQP
 from push_mpc.qp.solution import Solution
-from push_mpc.qp.solver import forget, run, set_up
+from push_mpc.qp.solver import forget, run, set_up, upper_triangle
 from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
 
 
@@ -35,11 +36,13 @@ class QPWeights:
         state: of Q (4,) [1/m^2, 1/m^2, 1/rad^2, 1/m^2]; also of Q_N.
         input: of R (m,), per squared unit of each input.
         change: of S (m,), likewise.
+        smoothness: of T (m,), likewise.
     """
 
     state: Array
     input: Array
     change: Array
+    smoothness: Array
 
 
 class TrackingQP:
@@ -62,6 +65,7 @@ class TrackingQP:
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
         self._entries = np.zeros((steps, space.entries))
+        self._entry_columns, self._entry_scale = self._entry_conversion()
         self._drift = np.zeros((steps, NX, 4))
         self._targets = np.zeros((steps, NX + space.size, 3))
         self._aims = np.zeros((steps, NX + space.size))
@@ -78,7 +82,7 @@ class TrackingQP:
     def weigh(self, weights: QPWeights) -> None:
         """Changes the weights, between two ticks; takes as long as `prepare`."""
         self._set_cost(weights)
-        self._solver.update(Px=self._cost)
+        self._solver.update(Px=upper_triangle(self._cost).data)
         self._relaxed.weigh(self._cost)
 
     def forget(self) -> None:
@@ -86,7 +90,7 @@ class TrackingQP:
         forget(self._solver)
         self._relaxed.forget()
 
-    def prepare(self, stages: Stages, window: Array, first: Stages) -> None:
+    def prepare(self, stages: Stages, window: Array, first: Stages, dynamics: Array) -> None:
         """Loads everything that does not depend on the state: most of the work of a tick.
 
         Copies into arrays that exist; allocates none.
@@ -95,10 +99,14 @@ class TrackingQP:
             stages: of the whole plan.
             window: indices (N,) of those in the horizon.
             first: its limits replace those of the first stage.
+            dynamics: [A, B, c, D] of each step (N, 4, 4 + m + 1 + 3) in SI units; see
+                `MidpointRule`.
         """
-        np.take(stages.entries, window, axis=0, out=self._entries, mode='clip')
+        every = dynamics.reshape(self.steps, -1)
+        np.take(every, self._entry_columns, axis=1, out=self._entries, mode='clip')
+        self._entries *= self._entry_scale
         self._matrix.data[self._places] = self._entries
-        np.take(stages.drift, window, axis=0, out=self._drift, mode='clip')
+        np.divide(dynamics[:, :, -4:], STATE_SCALE[:, None], out=self._drift)
         np.take(stages.target, window, axis=0, out=self._targets, mode='clip')
         np.take(stages.low, window, axis=0, out=self._limited(self._low), mode='clip')
         np.take(stages.high, window, axis=0, out=self._limited(self._high), mode='clip')
@@ -190,7 +198,7 @@ class TrackingQP:
         variables = np.concatenate([np.tile(STATE_SCALE, steps + 1), np.tile(space.scale, steps)])
         pattern = self._matrix.indices, self._matrix.indptr
         return Problem(
-            self._cost,
+            self._cost.copy(),
             self._linear.copy(),
             sparse.csc_matrix((self._matrix.data.copy(), *pattern), shape=self._matrix.shape),
             self._low.copy(),
@@ -224,9 +232,11 @@ class TrackingQP:
 
     def _set_cost(self, weights: QPWeights) -> None:
         self._tracking = self._diagonal(weights.state, weights.input)
-        self._change = 2.0 * weights.change * self._space.scale**2 / self._cost_unit
-        self._cost = self._tracking.copy()
-        self._first_inputs(self._cost)[:] += self._change
+        unit = 2.0 * self._space.scale**2 / self._cost_unit
+        self._change = unit * weights.change
+        diagonal = self._tracking.copy()
+        self._first_inputs(diagonal)[:] += self._change
+        self._cost = self._with_smoothness(diagonal, unit * weights.smoothness)
 
     def _diagonal(self, state_weights: Array, input_weights: Array) -> Array:
         """Diagonal of the cost, scaled; doubled because OSQP halves it."""
@@ -234,6 +244,34 @@ class TrackingQP:
         diagonal = np.concatenate([np.tile(state, self.steps + 1), np.tile(inputs, self.steps)])
         self._cost_unit = float(diagonal.max())
         return np.asarray(2.0 * diagonal / self._cost_unit)
+
+    def _with_smoothness(self, diagonal: Array, smoothness: Array) -> sparse.csc_matrix:
+        """A diagonal cost (n,) and that of the changes from step to step (m,), symmetric.
+
+        Zeros stay entries, so that weights of zero can be changed.
+        """
+        inputs = diagonal[self._states :].reshape(self.steps, -1)
+        inputs[1:] += smoothness
+        inputs[:-1] += smoothness
+        index = np.arange(self._size)
+        before = index[self._states : -smoothness.size]
+        after = before + smoothness.size
+        between = -np.tile(smoothness, self.steps - 1)
+        values = np.concatenate([diagonal, between, between])
+        places = np.concatenate([index, before, after]), np.concatenate([index, after, before])
+        return sparse.csc_matrix((values, places))
+
+    def _entry_conversion(self) -> tuple[Array, Array]:
+        """Place in `dynamics` and unit of each entry of -A and -B that a stage has."""
+        unit = np.concatenate([STATE_SCALE, self._space.scale])
+        units = -unit / STATE_SCALE[:, None]
+        width = len(unit) + 4
+        has = np.hstack([A_PATTERN, np.ones((NX, self._space.size), dtype=bool)])
+        row, column = np.nonzero(has)
+        # first those of A, then those of B, as in `_entry_places`
+        order = np.argsort(column >= NX, kind='stable')
+        row, column = row[order], column[order]
+        return row * width + column, units[row, column]
 
     def _constraints(self) -> sparse.csc_matrix:
         """Rows: initial state and dynamics; then, for each stage, the next p_y and its inputs."""

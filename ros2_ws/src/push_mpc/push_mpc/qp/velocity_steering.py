@@ -10,13 +10,14 @@ import numpy as np
 from push_core.geometry import Array
 from push_core.physics import Slider
 
-from push_mpc.motion import TravelModel, TravelMotion
+from push_mpc.motion import TabulatedModel, TravelMotion
 from push_mpc.plan import Plan
-from push_mpc.qp.preview import Preview
+from push_mpc.qp.iteration import RealTimeIteration
 from push_mpc.qp.stages import InputSpace, Stages
-from push_mpc.qp.steering import LinearisedPlan, Move
+from push_mpc.qp.steady_shift import steady_shift
+from push_mpc.qp.steering import Move, StagedPlan, contact_after, mean_over_steps
 from push_mpc.qp.tracking_qp import QPWeights, TrackingQP
-from push_mpc.settings import ControllerSettings
+from push_mpc.settings import ControllerSettings, change_share
 
 SPACE = InputSpace(np.full(2, 1e-2), np.eye(2), np.full(2, 1e-2), ('v_n [m/s]', 'v_t [m/s]'))
 
@@ -26,16 +27,23 @@ class VelocitySteering:
 
     solvers: tuple[TrackingQP, ...]
 
-    def __init__(self, settings: ControllerSettings, slider: Slider) -> None:
+    def __init__(self, settings: ControllerSettings, slider: Slider, speed: float) -> None:
         self._settings, self._slider = settings, slider
-        self.solvers = (TrackingQP(settings.horizon_steps, SPACE, _weights(settings)),)
+        self._speed = speed
+        weights = _weights(settings, speed)
+        self.solvers = (TrackingQP(settings.horizon_steps, SPACE, weights),)
+        self._iteration = RealTimeIteration(
+            settings.horizon_steps, SPACE.size, relinearise=settings.relinearise
+        )
 
-    def linearised(self, model: TravelModel, plan: Plan, stride: int) -> LinearisedPlan:
-        """See `Steering.linearised`."""
-        motion = TravelMotion(model, self._slider.tip_x)
-        preview = Preview.of(plan, motion, stride)
-        stages = Stages.of(SPACE, preview, self._limits(preview.contact, plan.input))
-        return LinearisedPlan(plan, preview.contact, (stages,))
+    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
+        """See `Steering.staged`."""
+        target = steady_shift(TravelMotion(model, self._slider.tip_x), plan)
+        motion = TravelMotion(model.lookup(self._settings.horizon_steps), self._slider.tip_x)
+        contact, mean = contact_after(plan, stride), mean_over_steps(plan.input, stride)
+        stages = Stages.of(SPACE, target, self._limits(contact, mean))
+        excess = np.zeros_like(plan.state)
+        return StagedPlan(plan, motion, stride, contact, mean, excess, (stages,))
 
     def of_slider(self, _slider: Slider) -> 'VelocitySteering':
         """See `Steering.of_slider`; only its model knows friction and support radius."""
@@ -44,21 +52,27 @@ class VelocitySteering:
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""
         self._settings = settings
-        self.solvers[0].weigh(_weights(settings))
+        self.solvers[0].weigh(_weights(settings, self._speed))
 
-    def bounded(self, linearised: LinearisedPlan) -> LinearisedPlan:
+    def bounded(self, staged: StagedPlan) -> StagedPlan:
         """See `Steering.bounded`."""
-        limits = self._limits(linearised.contact, linearised.plan.input)
-        return replace(linearised, stages=(linearised.stages[0].within(limits),))
+        limits = self._limits(staged.contact, staged.mean_input)
+        return replace(staged, stages=(staged.stages[0].within(limits),))
 
-    def prepare(self, linearised: LinearisedPlan, window: Array) -> None:
+    def prepare(self, staged: StagedPlan, samples: Array) -> None:
         """See `Steering.prepare`."""
-        (stages,) = linearised.stages
-        self.solvers[0].prepare(stages, window, stages)
+        dynamics = self._iteration.prepare(staged, samples)
+        (stages,) = staged.stages
+        self.solvers[0].prepare(stages, samples[:-1], stages, dynamics)
+
+    def forget(self) -> None:
+        """See `Steering.forget`."""
+        self._iteration.forget()
+        self.solvers[0].forget()
 
     def solve(
         self,
-        linearised: LinearisedPlan,
+        staged: StagedPlan,
         _state: Array,
         deviation: Array,
         time: float,
@@ -67,9 +81,10 @@ class VelocitySteering:
         sent: Array,
     ) -> Move:
         """See `Steering.solve`."""
-        nominal = linearised.plan.at(time)[1]
+        nominal = staged.plan.at(time)[1]
         (solver,) = self.solvers
         solution = solver.solve(deviation, widening, disturbance, sent - nominal)
+        self._iteration.keep(solution)
         return Move(
             nominal + solution.inputs[0],
             solution.status,
@@ -87,10 +102,12 @@ class VelocitySteering:
         return low - nominal, high - nominal
 
 
-def _weights(settings: ControllerSettings) -> QPWeights:
+def _weights(settings: ControllerSettings, speed: float) -> QPWeights:
     weights = settings.weights
+    share = change_share(speed) if settings.relinearise else 1.0
     return QPWeights(
         np.array([weights.position_x, weights.position_y, weights.heading, weights.contact]),
         np.array([weights.normal, weights.tangential]),
-        np.full(2, weights.change),
+        np.full(2, share * weights.change),
+        np.full(2, share * weights.smoothness),
     )

@@ -1,6 +1,6 @@
 """Settings of the controller and of its node."""
 
-from push_mpc.settings.controller_settings import ControllerSettings
+from push_mpc.settings.controller_settings import ControllerSettings, change_share
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.diagnostics_settings import DiagnosticsSettings
 from push_mpc.settings.guard_settings import GuardSettings
@@ -18,6 +18,7 @@ __all__ = [
     'MpcSettings',
     'PoseGateSettings',
     'approach',
+    'change_share',
     'departure',
     'is_apart',
     'is_changeable',

@@ -9,6 +9,16 @@ from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.guard_settings import GuardSettings
 from push_mpc.settings.recontact import RecontactSettings
 
+_CHANGE_SPEED = 0.08  # [m/s]
+
+
+def change_share(speed: float) -> float:
+    """Factor of the weights on changes for a plan of a speed [m/s].
+
+    A change of direction by the same angle costs the same at every speed.
+    """
+    return (_CHANGE_SPEED / speed) ** 2
+
 
 @dataclass(frozen=True)
 class Weights:
@@ -22,6 +32,13 @@ class Weights:
     tangential: float = setting(1.0, 'tangential velocity v_t', unit='s^2/m^2', low=1e-6, high=1e9)
     change: float = setting(
         2.0, 'change of the velocity since the last command', unit='s^2/m^2', low=0.0, high=1e9
+    )
+    smoothness: float = setting(
+        0.0,
+        'change of the velocity from one step of the horizon to the next',
+        unit='s^2/m^2',
+        low=0.0,
+        high=1e9,
     )
 
     def __post_init__(self) -> None:
@@ -88,6 +105,9 @@ class ControllerSettings:
         unit='m/s',
         low=1e-3,
         high=2.0,
+    )
+    relinearise: bool = setting(
+        False, 'linearise each QP of gp along the last solution; false: about the nominal'
     )
     consistent_plan: bool = setting(
         True, "re-plan with the model's own motion equations when a model arrives"

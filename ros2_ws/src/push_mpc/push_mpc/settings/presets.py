@@ -1,7 +1,8 @@
 """Bundles of the controller's defaults.
 
 `tuned`: the defaults of the settings. `paper`: the weights, step and horizon of Bauza, Hogan and
-Rodriguez 2018 without later additions; docs/control.md states its errors.
+Rodriguez 2018 without later additions; docs/control.md states its errors. `relinearised`: the QP
+of the controller `gp` along the last solution, with the weights that go with it.
 """
 
 from dataclasses import replace
@@ -11,7 +12,7 @@ from push_core.common import replaced
 
 from push_mpc.settings.controller_settings import ControllerSettings, ForceWeights, Weights
 
-PRESETS = ('tuned', 'paper')
+PRESETS = ('tuned', 'paper', 'relinearised')
 
 S = TypeVar('S', bound=ControllerSettings)
 
@@ -23,6 +24,7 @@ _PAPER_WEIGHTS = Weights(
     normal=10.0,
     tangential=0.001,
     change=0.0,
+    smoothness=0.0,
 )
 _PAPER_FORCE_WEIGHTS = ForceWeights(
     position_x=6000.0,
@@ -37,13 +39,20 @@ _PAPER_FORCE_WEIGHTS = ForceWeights(
 _PAPER = {
     'horizon_steps': 35,
     'horizon_step': 0.01,
+    'relinearise': False,
     'consistent_plan': False,
     'disturbance_length': 0.0,
 }
 
 
+_RELINEARISED = {'relinearise': True, 'disturbance_length': 0.035}
+
+
 def with_preset(settings: S, preset: str) -> S:
     """The settings with the values of a preset; validation names an unknown one."""
+    if preset == 'relinearised':
+        weights = replace(settings.weights, change=6.0, smoothness=2.0)
+        return replaced(replace(settings, weights=weights), _RELINEARISED)
     if preset != 'paper':
         return settings
     weighted = replace(settings, weights=_PAPER_WEIGHTS, force_weights=_PAPER_FORCE_WEIGHTS)

@@ -36,7 +36,13 @@ class Grid:
 
 
 class Table:
-    """Bicubic interpolation of displacement rates; inputs are clamped to the grid."""
+    """Bicubic interpolation of displacement rates; inputs are clamped to the grid.
+
+    Attributes:
+        low: lowest p_y [m] and beta [rad] (2,).
+        step: of the grid (2,).
+        cells: number of cells along p_y and along beta (2,).
+    """
 
     def __init__(self, grid: Grid, mean: Array, jacobian: Array) -> None:
         """Builds the table.
@@ -54,20 +60,20 @@ class Table:
         if max(np.abs(mean).max(), np.abs(jacobian).max()) > _LARGEST:
             raise InputError('the model returned implausibly large displacement rates')
         self._grid = grid
-        self._low = np.array([grid.p_y[0], grid.beta[0]])
-        self._step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
-        self._cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
-        self._axes = (self._low.tolist(), self._step.tolist(), self._cells.tolist())
+        self.low = np.array([grid.p_y[0], grid.beta[0]])
+        self.step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
+        self.cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
+        self._axes = (self.low.tolist(), self.step.tolist(), self.cells.tolist())
         self._coefficients = self._fit(mean, jacobian)
 
     def _fit(self, mean: Array, jacobian: Array) -> Array:
         """Coefficients (m - 1, k - 1, 3, 4, 4) of every cell in its unit coordinates."""
         shape = (self._grid.p_y.size, self._grid.beta.size, 3)
         value = mean.reshape(shape)
-        slope_p = jacobian[:, :, 0].reshape(shape) * self._step[0]
-        slope_b = jacobian[:, :, 1].reshape(shape) * self._step[1]
+        slope_p = jacobian[:, :, 0].reshape(shape) * self.step[0]
+        slope_b = jacobian[:, :, 1].reshape(shape) * self.step[1]
         mixed = 0.5 * (np.gradient(slope_p, axis=1) + np.gradient(slope_b, axis=0))
-        corners = np.empty((*self._cells, 3, 4, 4))
+        corners = np.empty((*self.cells, 3, 4, 4))
         for row, pair in enumerate(((value, slope_b), (slope_p, mixed))):
             for column, field in enumerate(pair):
                 for i in range(2):
@@ -76,20 +82,21 @@ class Table:
                         corners[..., 2 * row + i, 2 * column + j] = part
         return np.ascontiguousarray(_HERMITE @ corners @ _HERMITE.T)
 
+    @property
+    def blocks(self) -> Array:
+        """Coefficients (cells, 3, 16) of all cells, in their unit coordinates."""
+        return self._coefficients.reshape(-1, 3, 16)
+
     def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
         """Rates (n, 3) [1, 1, rad/m] and Jacobian (n, 3, 2) at p_y [m] and beta [rad], each (n,).
 
         Outside the grid the derivative across its edge is 0.
         """
-        place = (np.column_stack((p_y, beta)) - self._low) / self._step
-        inside = np.minimum(np.maximum(place, 0.0), self._cells)
-        cell = np.minimum(inside.astype(int), self._cells - 1)
-        powers, slopes = _powers(inside - cell)
-        slopes *= ((place == inside) / self._step)[:, :, None]
-        flat = cell[:, 0] * self._cells[1] + cell[:, 1]
-        blocks = self._coefficients.reshape(-1, 3, 16).take(flat, axis=0)
-        rates = blocks @ _products(powers, slopes)
-        return rates[..., 0], rates[..., 1:]
+        return self.lookup(len(p_y)).evaluate(p_y, beta)
+
+    def lookup(self, points: int) -> 'Lookup':
+        """The same for always as many points, in arrays that are made once."""
+        return Lookup(self, points)
 
     def rate(self, p_y: float, beta: float) -> tuple[float, float, float]:
         """Displacement rates [1, 1, rad/m] at one point; fast for a single query."""
@@ -118,28 +125,56 @@ def _slope(t: float, step: float) -> list[float]:
     return [0.0, 1.0 / step, 2.0 * t / step, 3.0 * t * t / step]
 
 
-def _powers(t: Array) -> tuple[Array, Array]:
-    """Powers 0..3 of t (n, 2) and their derivatives, each (n, 2, 4)."""
-    powers, slopes = np.ones((*t.shape, 4)), np.zeros((*t.shape, 4))
-    powers[..., 1] = t
-    np.multiply(t, t, out=powers[..., 2])
-    np.multiply(powers[..., 2], t, out=powers[..., 3])
-    np.multiply(powers[..., :3], _EXPONENTS, out=slopes[..., 1:])
-    return powers, slopes
+class Lookup:
+    """Evaluates a table at n points; the results are valid until the next evaluation."""
 
+    def __init__(self, table: Table, points: int) -> None:
+        """Makes the arrays for n points."""
+        self._table = table
+        self._place, self._inside = np.zeros((points, 2)), np.zeros((points, 2))
+        self._cell, self._flat = np.zeros((points, 2), dtype=int), np.zeros(points, dtype=int)
+        # powers 0..3 of the place within a cell, and their derivatives
+        self._powers, self._slopes = np.ones((points, 2, 4)), np.zeros((points, 2, 4))
+        self._products = np.zeros((points, 3, 4, 4))
+        self._taken = np.zeros((points, 3, 16))
+        self._rates = np.zeros((points, 3, 3))
 
-def _products(powers: Array, slopes: Array) -> Array:
-    """(n, 16, 3) factors of a cell's coefficients in the value and in both derivatives.
+    def evaluate(self, p_y: Array, beta: Array) -> tuple[Array, Array]:
+        """See `Table.evaluate`."""
+        self._find_cells(p_y, beta)
+        self._take_powers()
+        np.take(self._table.blocks, self._flat, axis=0, out=self._taken, mode='clip')
+        factors = self._products.reshape(-1, 3, 16).swapaxes(1, 2)
+        np.matmul(self._taken, factors, out=self._rates)
+        return self._rates[..., 0], self._rates[..., 1:]
 
-    Args:
-        powers: (n, 2, 4) of both inputs.
-        slopes: (n, 2, 4) their derivatives.
-    """
-    products = np.empty((len(powers), 3, 4, 4))
-    pairs = (powers, powers), (slopes, powers), (powers, slopes)
-    for kind, (across, around) in enumerate(pairs):
-        np.multiply(across[:, 0, :, None], around[:, 1, None], out=products[:, kind])
-    return np.swapaxes(products.reshape(-1, 3, 16), 1, 2)
+    def _find_cells(self, p_y: Array, beta: Array) -> None:
+        table, place, inside, cell = self._table, self._place, self._inside, self._cell
+        place[:, 0], place[:, 1] = p_y, beta
+        place -= table.low
+        place /= table.step
+        np.maximum(place, 0.0, out=inside)
+        np.minimum(inside, table.cells, out=inside)
+        np.copyto(cell, inside, casting='unsafe')
+        np.minimum(cell, table.cells - 1, out=cell)
+        np.multiply(cell[:, 0], table.cells[1], out=self._flat)
+        self._flat += cell[:, 1]
+
+    def _take_powers(self) -> None:
+        """Factors (n, 3, 4, 4) of a cell's coefficients in the value and in both derivatives."""
+        place, inside, powers, slopes = self._place, self._inside, self._powers, self._slopes
+        # the derivative across an edge is 0 outside
+        np.equal(place, inside, out=place, casting='unsafe')
+        place /= self._table.step
+        inside -= self._cell
+        powers[..., 1] = inside
+        np.multiply(inside, inside, out=powers[..., 2])
+        np.multiply(powers[..., 2], inside, out=powers[..., 3])
+        np.multiply(powers[..., :3], _EXPONENTS, out=slopes[..., 1:])
+        slopes *= place[:, :, None]
+        pairs = (powers, powers), (slopes, powers), (powers, slopes)
+        for kind, (across, around) in enumerate(pairs):
+            np.multiply(across[:, 0, :, None], around[:, 1, None], out=self._products[:, kind])
 
 
 def _unit(value: float, low: float, step: float, cells: int) -> tuple[float, int]:

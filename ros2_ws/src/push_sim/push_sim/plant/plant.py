@@ -193,6 +193,12 @@ class Plant:
         return self._settings[1]
 
     @property
+    def true_slider(self) -> Slider:
+        """The pushed object with the size that it really has."""
+        settings, slider = self._settings
+        return replace(slider, side=slider.side * (1.0 + settings.world.size_error))
+
+    @property
     def object_pose(self) -> Array:
         """True pose (3,) of the object: x [m], y [m], theta [rad]."""
         return self._world.object_pose
