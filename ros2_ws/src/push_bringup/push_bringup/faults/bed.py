@@ -2,8 +2,10 @@
 
 import os
 import signal
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +35,7 @@ from push_bringup.setup import (
 )
 
 TRACK, SPEED = 'circle', 0.08
+DOMAINS = 102  # that work on every system
 _PATIENCE = 60.0  # [s] for the nodes to be ready
 _SICK = {
     'mpc_node': 'push_bringup.faults.sick_controller',
@@ -60,15 +63,16 @@ class Bed:
             namespace: of the nodes.
             relayed: whether the poses go through the relay.
         """
+        self._scratch, self._namespace = folder, namespace
         self._sick_file = folder / 'sick'
         os.environ[FAULT_FILE] = str(self._sick_file)
-        parameters, self.folder = _written(case, folder, namespace)
+        self._parameters, self.folder = _written(case, folder, namespace)
         self.node = Node('faults', namespace=namespace)
         self._spinner = Spinner(self.node)
         self.relay, self.observer = Relay(self.node, relayed), Observer(self.node)
         modules = {**MODULES, **{name: _SICK[name] for name in case.fault.sick}}
         arguments = {'sim_node': remappings()} if relayed else {}
-        self.processes = Processes(parameters, namespace, folder, modules, arguments)
+        self.processes = Processes(self._parameters, namespace, folder, modules, arguments)
         self._starter = Starter(self.node, self.wait)
         self._stop, self._resume = (
             service.client(self.node) for service in (interface.STOP, interface.RESUME)
@@ -142,6 +146,29 @@ class Bed:
     def make_sick(self, how: str) -> None:
         """Makes the nodes that can be sick so, see `push_bringup.faults.sick`; '' heals them."""
         self._sick_file.write_text(how, encoding='utf-8')
+
+    @contextmanager
+    def neighbour(self, namespace: str, domain: int) -> Iterator[None]:
+        """Another cell with the same parameters, as long as the context lasts.
+
+        Args:
+            namespace: of its nodes, added to that of this cell.
+            domain: added to the ROS domain.
+        """
+        scratch = Path(tempfile.mkdtemp(prefix='neighbour_', dir=self._scratch))
+        recorder = ['-p', f'folder:={scratch / "run"}']
+        own = os.environ.get('ROS_DOMAIN_ID', '0') or '0'
+        os.environ['ROS_DOMAIN_ID'] = str((int(own) + domain) % DOMAINS)
+        nodes = Processes(
+            self._parameters, self._namespace + namespace, scratch, MODULES, {'recorder': recorder}
+        )
+        try:
+            with nodes:
+                nodes.start()
+                os.environ['ROS_DOMAIN_ID'] = own
+                yield
+        finally:
+            os.environ['ROS_DOMAIN_ID'] = own
 
     def signal(self, name: str, number: int) -> None:
         """Sends a signal to a node, if it lives."""

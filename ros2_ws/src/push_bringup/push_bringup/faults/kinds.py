@@ -7,6 +7,7 @@ import resource
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 
 from geometry_msgs.msg import Pose, PoseStamped, TwistStamped
@@ -182,6 +183,16 @@ def _hogged(bed: Bed, _random: random.Random) -> float:
 def _asked_to_stop(bed: Bed, _random: random.Random) -> float:
     bed.call(interface.STOP)
     return 0.0
+
+
+def _second_cell(namespace: str, domain: int) -> Inject:
+    def inject(bed: Bed, _random: random.Random) -> float:
+        begun = time.monotonic()
+        with bed.neighbour(namespace, domain):
+            bed.spin(4.0)
+        return time.monotonic() - begun
+
+    return inject
 
 
 def _kills() -> dict[str, Fault]:
@@ -386,6 +397,16 @@ def _others() -> dict[str, Fault]:
             RECORDER_SILENCE,
             breaks=True,
             unrecorded=True,
+        ),
+        'cell_in_namespace': Fault(
+            'another cell starts and ends, in another namespace',
+            Outcome.CONTINUES,
+            _second_cell('_beside', 0),
+        ),
+        'cell_in_domain': Fault(
+            'another cell of the same name starts and ends, in another ROS domain',
+            Outcome.CONTINUES,
+            _second_cell('', 1),
         ),
         'cores_hogged': Fault('two processes on each core for 2 s', Outcome.CONTINUES, _hogged),
         'commands_lost': Fault(

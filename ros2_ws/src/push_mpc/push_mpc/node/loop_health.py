@@ -46,7 +46,7 @@ class LoopHealth:
         """Findings and values since the last call.
 
         Args:
-            seconds: since then; infinite where time says nothing about rates.
+            seconds: since then; infinite where time says nothing, as in lockstep.
             totals: what went wrong elsewhere since the start: refused poses and the like.
             settings: thresholds.
         """
@@ -65,9 +65,11 @@ class LoopHealth:
         return findings, values
 
     def _loop_findings(self, rate: float, settings: DiagnosticsSettings) -> list[Finding]:
+        if math.isnan(rate):
+            return []
         slowest = f'a tick took {self._tick_ms:.1f} ms'
         found = [above(1e-3 * self._tick_ms, settings.tick_warn, settings.tick_error, slowest)]
-        if 0 < self._moving == self._ticks and math.isfinite(rate):
+        if 0 < self._moving == self._ticks:
             slow = f'{rate:.0f} ticks a second'
             found.append(above(-rate, -settings.rate_warn, -settings.rate_error, slow))
         held = f'no fresh pose for {self._held} ticks' if self._held else ''
