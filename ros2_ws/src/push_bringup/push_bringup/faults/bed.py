@@ -167,6 +167,9 @@ class Bed:
                 nodes.start()
                 os.environ['ROS_DOMAIN_ID'] = own
                 yield
+                nodes.interrupt(*MODULES)
+                # the relay of this cell runs meanwhile
+                self.wait(lambda: all(nodes.status(name) is not None for name in MODULES), 15.0)
         finally:
             os.environ['ROS_DOMAIN_ID'] = own
 

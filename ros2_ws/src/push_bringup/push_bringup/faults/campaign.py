@@ -1,8 +1,10 @@
 """Runs cases, those that need the same cell one after the other in it."""
 
+import math
 import random
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -35,18 +37,27 @@ def cases(kinds: Sequence[str], modes: Sequence[str], seeds: Iterable[int]) -> l
 
 
 def run_cases(chosen: Sequence[Case], done: Callable[[Verdict], None]) -> list[Verdict]:
-    """Runs all cases; `done` is called after each. ROS must have been initialised."""
+    """Runs all cases, again while the host took the cores away; `done` is called after each.
+
+    ROS must have been initialised.
+    """
     verdicts: list[Verdict] = []
-    waiting, number = list(chosen), 0
+    waiting, tried = list(chosen), Counter[int]()
     while waiting:
-        number += 1
         first = waiting[0]
         shared = [case for case in waiting if case.cell == first.cell and not case.fault.breaks]
         group = [first] if first.fault.breaks else shared
-        for verdict in _in_one_cell(group, f'faults{time.time_ns() // 1000 % 10**9}_{number}'):
-            verdicts.append(verdict)
-            done(verdict)
+        namespace = f'faults{time.time_ns() // 1000 % 10**9}'
+        for verdict in _in_one_cell(group, namespace):
+            tried[id(verdict.case)] += 1
+            attempts = tried[id(verdict.case)]
+            disturbed = verdict.problems and verdict.host_gap > HOST_GAP
             waiting.remove(verdict.case)
+            if disturbed and attempts < ATTEMPTS:
+                waiting.append(verdict.case)
+                continue
+            verdicts.append(replace(verdict, attempts=attempts))
+            done(verdicts[-1])
     return verdicts
 
 
@@ -57,7 +68,7 @@ def _in_one_cell(group: Sequence[Case], namespace: str) -> Iterator[Verdict]:
         verdicts: list[Verdict] = []
         try:
             for case in group:
-                verdict = _attempted(bed, case)
+                verdict = _run(bed, case)
                 verdicts.append(verdict)
                 if verdict.problems or case.fault.breaks:
                     break
@@ -66,23 +77,15 @@ def _in_one_cell(group: Sequence[Case], namespace: str) -> Iterator[Verdict]:
         yield from _as_recorded(bed.folder, verdicts)
 
 
-def _attempted(bed: Bed, case: Case) -> Verdict:
-    """Runs a case, again while the host took the cores away."""
-    for attempt in range(1, ATTEMPTS + 1):
-        verdict = replace(_run(bed, case), attempts=attempt)
-        disturbed = bed.observer.seen.longest_gap > HOST_GAP
-        if not verdict.problems or not disturbed or case.fault.breaks:
-            break
-    return verdict
-
-
 def _run(bed: Bed, case: Case) -> Verdict:
     chance = random.Random(f'{case.kind} {case.mode} {case.seed}')
     moment = chance.uniform(EARLIEST, LATEST)
     try:
         bed.begin(moment)
     except RunError as error:
-        return Verdict(case, moment, float('nan'), 0.0, bed.reason, (str(error),))
+        gap = bed.observer.seen.longest_gap
+        problem = (str(error),)
+        return Verdict(case, moment, math.nan, 0.0, bed.reason, problem, host_gap=gap)
     bed.observer.seen.tips = bed.observer.seen.tips[-2:]
     begun = bed.now()
     lasts = case.fault.inject(bed, chance)
@@ -95,6 +98,7 @@ def _run(bed: Bed, case: Case) -> Verdict:
         fastest(seen),
         reason,
         tuple(problems(case, seen, begun, lasts, reason)),
+        host_gap=seen.longest_gap,
     )
 
 

@@ -72,6 +72,7 @@ class Verdict:
         reason: that the controller or the cell gave.
         problems: what was not as it must be; empty if all was.
         attempts: how often it was run, because the host took the cores away.
+        host_gap: largest time [s] in which the observer itself did not run.
     """
 
     case: Case
@@ -81,6 +82,7 @@ class Verdict:
     reason: str
     problems: tuple[str, ...]
     attempts: int = 1
+    host_gap: float = 0.0
 
     def as_json(self) -> dict[str, object]:
         """The row of the table."""
