@@ -117,6 +117,13 @@ class Cell:
                 status.level, status.message = DiagnosticStatus.ERROR, self.recorder_fault
             self._health.publish(DiagnosticArray(status=[status]))
 
+    def report_as(self, name: str, behind: float) -> None:
+        """A status with a stamp by a clock that is behind [s]."""
+        stamp = self.node.get_clock().now().nanoseconds - round(1e9 * behind)
+        array = DiagnosticArray(status=[DiagnosticStatus(name=name)])
+        array.header.stamp = to_stamp(stamp)
+        self._health.publish(array)
+
     def announce_model(self, model_id: str = 'cone') -> None:
         self.model_id = model_id
         info = ModelInfo(model_id=model_id, distance=0.004)
@@ -516,6 +523,35 @@ def test_each_pose_pairs_with_the_nearest_of_the_tip_at_any_rates(
             assert cell.states[-1].state[3] == pytest.approx(1e-4 * (nearest - 150.0), abs=1e-9)
             paired += 1
     assert paired > 0.7 * len(exposures)
+
+
+@pytest.mark.parametrize(
+    ('behind', 'told'), [(0.0, ''), (0.08, '80 ms behind'), (-0.5, '500 ms ahead')]
+)
+def test_an_offset_of_the_drivers_clock_is_told_on_diagnostics(
+    cell, started, behind: float, told: str
+) -> None:
+    """Also one that the gate of poses would let pass as a longer delay."""
+    started(LINE, 'require_recorder:=false')
+    heard: list[DiagnosticStatus] = []
+    cell.node.create_subscription(
+        DiagnosticArray, '/diagnostics', lambda array: heard.extend(array.status), 10
+    )
+    cell.announce_model()
+    cell.poses_on = True
+    reporting = cell.node.create_timer(0.1, lambda: cell.report_as('/cell: cameras', behind))
+
+    def values() -> dict[str, str]:
+        own = [status for status in heard if status.name == '/mpc_node: control']
+        return {each.key: each.value for each in own[-1].values} if own else {}
+
+    cell.wait(lambda: float(values().get('way_ms', '0')) > 0.0)
+    known = 1e3 * behind
+    cell.wait(lambda: abs(float(values()['clock_behind_ms']) - known) < 5.0 + abs(0.1 * known))
+    cell.happens(lambda: False, 2.5)
+    message = next(each for each in reversed(heard) if each.name == '/mpc_node: control').message
+    assert (f'the clock of /cell is {told}'[:28] in message) == bool(told), message
+    cell.node.destroy_timer(reporting)
 
 
 def test_stamps_too_far_apart_are_named(cell, started) -> None:

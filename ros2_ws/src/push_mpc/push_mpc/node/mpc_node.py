@@ -9,7 +9,7 @@ from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
 from push_msgs.msg import ControllerState
 from push_node import interface
-from push_node.diagnostics import ERROR, Reporter, worst
+from push_node.diagnostics import ERROR, WARN, Reporter, worst
 from push_node.parameters import declared, on_change, override
 from push_node.publishers import PUBLISHERS
 from push_node.realtime import Scheduling, enter_realtime
@@ -24,6 +24,7 @@ from push_mpc.loop import MOVING, Controller, Mode, Tick, here_fault, start_faul
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.link_watch import LinkWatch
 from push_mpc.node.loop_health import LoopHealth, stop_finding
 from push_mpc.node.mode_log import ModeLog
 from push_mpc.node.model_client import ModelClient
@@ -72,6 +73,10 @@ class MpcNode(Node):  # type: ignore[misc]
         self._preparation = Preparation(self._settings, self._controller)
         self._model = ModelClient(self, self._settings.slider.side, self._preparation.prepare)
         self._recorder = RecorderWatch(self)
+        self._link = (
+            None if self._lockstep else LinkWatch(self, self._settings.poses.clock_tolerance)
+        )
+        self._way = 0.0
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
         self._health, self._reported = LoopHealth(self._settings.period), time.monotonic()
@@ -126,14 +131,17 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
-        self._answer(stamp, now, lambda: self._controller.step(*self._measured(), exposure, now))
+        # the command counts from when it reaches the driver
+        then = now + self._way
+        self._answer(stamp, then, lambda: self._controller.step(*self._measured(), exposure, then))
 
     def _coast(self, stamp: int, now: float) -> None:
         """Goes on without new poses, with a stamp [ns] and the current time [s]."""
-        self._answer(stamp, now, lambda: self._controller.coast(now))
+        then = now + self._way
+        self._answer(stamp, then, lambda: self._controller.coast(then))
 
     def _answer(self, stamp: int, now: float, step: Callable[[], Tick]) -> None:
-        """Computes and publishes a tick."""
+        """Computes and publishes a tick whose command counts from a time [s]."""
         arrived, self._ticked = time.perf_counter(), time.monotonic()
         self._take_model()
         tick = self._computed(step, now)
@@ -174,6 +182,8 @@ class MpcNode(Node):  # type: ignore[misc]
         if fault and self._controller.mode in MOVING:
             self._halt(fault)
         self._mode_log.write(self.get_logger())
+        if self._link is not None:
+            self._link.poll()
 
     def _unrecorded(self) -> str:
         """Why nothing is recorded although it must be, empty if it is."""
@@ -241,7 +251,7 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _slow_down(self) -> None:
         stamp, now = self._poses.now()
-        self._publish(self._controller.hold(now), stamp)
+        self._publish(self._controller.hold(now + self._way), stamp)
 
     def _publish(self, tick: Tick, stamp: int) -> None:
         """Publishes a tick that answers no pose."""
@@ -258,6 +268,7 @@ class MpcNode(Node):  # type: ignore[misc]
         answer.success = not answer.message
         if answer.success:
             scheduling = self._enter_realtime()
+            self._way = self._link.way if self._link else 0.0
             self._arm()
             answer.message = f'armed; {scheduling.text}'
         return answer
@@ -339,6 +350,9 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         reason = self._controller.stop_reason
         findings.append(stop_finding(reason, ON_REQUEST) if reason else (ERROR, self._warning()))
+        if self._link is not None:
+            findings.append((WARN, self._link.fault))
+            values |= self._link.values()
         values |= {
             'mode': self._controller.mode.name.lower(),
             'model': self._controller.model_id,
