@@ -32,26 +32,28 @@ def lap():
 
 
 def pushed(cell: InProcessCell, missing: int) -> list[float]:
-    """Errors [m] of the true poses; the controller holds as the node does."""
+    """Errors [m] of the true poses; without poses the controller goes on as the node does."""
     controller, plant = cell.controller, cell.plant
-    timeout = round(controller.settings.pose_timeout / controller.settings.period)
     cell.start()
     seen, cell._first = cell._first, None
-    origin, errors, tick, lost = nanoseconds(seen.time), [], 0, 0
+    origin, errors, tick, lost, reference_time = nanoseconds(seen.time), [], 0, 0, 0.0
     while controller.mode in MOVING or controller.mode == Mode.STOPPING:
         tick += 1
-        lost = missing if tick % 100 == 0 else max(lost - 1, 0)
+        # none over the end of the track, where the run ends without a further pose
+        due = tick % 100 == 0 and reference_time < controller.plan.duration - 0.3
+        lost = missing if due else max(lost - 1, 0)
         now = to_seconds(nanoseconds(plant.time) - origin)
         if not lost:
             exposure = to_seconds(nanoseconds(seen.time) - origin)
             answer = controller.step(seen.object_pose, seen.tip_position, exposure, now)
             plant.command(answer.velocity, plant.time)
             if answer.mode in FOLLOWING and answer.reference_time > 0.0:
-                reference, _ = controller.plan.at(answer.reference_time)
+                reference_time = answer.reference_time
+                reference, _ = controller.plan.at(reference_time)
                 errors.append(np.hypot(*(seen.truth.object_pose[:2] - reference[:2])))
             controller.prepare_next()
-        elif missing - lost >= timeout:
-            plant.command(controller.hold(now).velocity, plant.time)
+        else:
+            plant.command(controller.coast(now).velocity, plant.time)
         seen = plant.step_until_seen()
     return errors
 

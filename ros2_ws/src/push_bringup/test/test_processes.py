@@ -20,8 +20,8 @@ def started(tmp_path, monkeypatch):
         for name, source in sources.items():
             (tmp_path / f'{name}.py').write_text(source)
         monkeypatch.setenv('PYTHONPATH', str(tmp_path))
-        monkeypatch.setattr(processes, 'MODULES', {name: name for name in sources})
-        nodes = Processes(tmp_path / 'params.yaml', '', tmp_path)
+        modules = {name: name for name in sources}
+        nodes = Processes(tmp_path / 'params.yaml', '', tmp_path, modules)
         nodes.start()
         end = time.monotonic() + HANG
         while not all((tmp_path / f'{name}.log').read_text() for name in sources):

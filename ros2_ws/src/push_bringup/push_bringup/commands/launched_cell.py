@@ -111,6 +111,7 @@ def _request(values: Mapping[str, str], recorded: bool) -> Request:
         params=Path(values['params_file']) if values['params_file'] else None,
         param=[] if recorded else ['mpc_node.require_recorder:=false'],
         output=Path('runs'),
+        watch=False,
     )
     return requested(options)
 
