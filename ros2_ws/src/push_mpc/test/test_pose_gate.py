@@ -160,6 +160,12 @@ def test_what_stays_at_a_new_place_was_really_moved(gate) -> None:
     assert [rejection.kind if rejection else '' for rejection in found] == ['jump'] * 4 + [''] * 6
 
 
+def test_after_a_reset_of_the_plant_a_new_run_begins_at_any_place(gate) -> None:
+    gate.check('pusher_pose', 'world', (0.0, 0.0, 0.0), UPRIGHT, 0.01)
+    gate.forget()
+    assert gate.check('pusher_pose', 'world', (0.2, 0.0, 0.0), UPRIGHT, 0.01) is None
+
+
 def test_motion_at_the_largest_speed_and_a_kick_are_no_jumps(gate) -> None:
     for place in (0.0, 0.0025, 0.005, 0.035, 0.0375):
         assert gate.check('object_pose', 'world', (place, 0.0, 0.0), UPRIGHT, 0.01) is None

@@ -17,7 +17,7 @@ from rclpy.node import Node
 from std_msgs.msg import String
 from tqdm import tqdm
 
-from push_bringup.graph.neighbours import check_alone, check_single
+from push_bringup.graph.neighbours import check_alone, check_single, rivals
 from push_bringup.graph.processes import Processes
 from push_bringup.graph.starter import Starter
 
@@ -71,6 +71,9 @@ class Conductor:
             reason = self._run()
         except RunError as error:
             reason = str(error)
+        if reason:
+            # found late on a busy machine, they explain whatever went wrong
+            reason = rivals(self._node) or reason
         self._end.publish(String(data=reason))
         return reason
 

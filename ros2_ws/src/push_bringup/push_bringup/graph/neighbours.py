@@ -30,9 +30,15 @@ def check_single(node: Node) -> None:
     Raises:
         RunError: names the topic and the nodes.
     """
-    conflict = second_source(node)
+    conflict = rivals(node)
     if conflict:
-        raise RunError(f'{conflict}; {_ADVICE}')
+        raise RunError(conflict)
+
+
+def rivals(node: Node) -> str:
+    """Second sources of poses or commands, and what to do; empty without one."""
+    conflict = second_source(node)
+    return f'{conflict}; {_ADVICE}' if conflict else ''
 
 
 def _other_nodes(node: Node) -> list[str]:

@@ -79,6 +79,11 @@ class PoseGate:
         self.counts[kind] += 1
         return Rejection(kind, f'{what}: {reason}')
 
+    def forget(self) -> None:
+        """Forgets where the last poses were: the plant may have been reset since."""
+        self._places.clear()
+        self._jumps.clear()
+
     def _jump_fault(self, what: str, place: tuple[float, float, float]) -> tuple[str, str] | None:
         """Refuses a place that is too far from the last one, unless it is seen again and again."""
         before = self._places.get(what, place)

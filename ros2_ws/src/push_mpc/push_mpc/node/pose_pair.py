@@ -82,6 +82,7 @@ class PosePair:
         self._handled = self._handled_clock = self._clock = self._newest = _NEVER
         self._object_stamp = _NEVER
         self._tips.clear()
+        self._gate.forget()
         self._arrival = time.monotonic()
 
     def rewind(self) -> None:
