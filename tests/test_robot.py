@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from cell_command import Ended, wait_until_ended
+from node_tests import own_domain
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run.run_reader import read_run
 from push_bag.score.score import score_series
@@ -18,6 +19,12 @@ pytestmark = pytest.mark.processes
 DRIVER = Path(__file__).parents[1] / 'examples' / 'robot_driver.py'
 SIM_NODE = ('-m', 'push_sim.node.sim_node')
 Check = Callable[..., Ended]
+
+
+@pytest.fixture(scope='module')
+def environment(environment: dict[str, str]) -> dict[str, str]:
+    """A domain in which no node of another test can take commands."""
+    return {**environment, 'ROS_DOMAIN_ID': own_domain()}
 
 
 @contextmanager
