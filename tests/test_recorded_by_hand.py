@@ -34,6 +34,19 @@ def model(tmp_path: Path) -> Path:
     return path
 
 
+def push_twice(
+    by_hand: Callable[..., 'subprocess.Popen[bytes]'], environment: dict[str, str], folder: Path
+) -> None:
+    """Records two complete runs as run1 in a folder."""
+    recorder = by_hand('push_bag', 'recorder', '-p', 'folder:=run1')
+    for number in (1, 2):
+        started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
+        assert started.status == 0, started.err
+        assert not wait_until_ended(folder / 'run1', number).stop_reason
+    recorder.send_signal(signal.SIGINT)
+    assert recorder.wait(timeout=HANG) == 0
+
+
 def test_two_runs_that_begin_where_the_object_lies_recompute_bit_for_bit(
     by_hand: Callable[..., 'subprocess.Popen[bytes]'],
     environment: dict[str, str],
@@ -46,13 +59,7 @@ def test_two_runs_that_begin_where_the_object_lies_recompute_bit_for_bit(
     by_hand('push_gp', 'gp_server')
     here = ('-p', 'start_from:=here', '-p', 'controller:=analytical', '-p', 'track:=arc.csv')
     by_hand('push_mpc', 'mpc_node', *LOCKSTEP, *SPEED, *here)
-    recorder = by_hand('push_bag', 'recorder', '-p', 'folder:=run1')
-    for number in (1, 2):
-        started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
-        assert started.status == 0, started.err
-        assert not wait_until_ended(tmp_path / 'run1', number).stop_reason
-    recorder.send_signal(signal.SIGINT)
-    assert recorder.wait(timeout=HANG) == 0
+    push_twice(by_hand, environment, tmp_path)
 
     first, second = read_starts(tmp_path / 'run1')
     assert first.reference is not None
@@ -78,13 +85,7 @@ def test_two_runs_of_nodes_started_by_hand_are_scored_apart_and_recompute_bit_fo
     by_hand('push_sim', 'sim_node', *LOCKSTEP, '-p', 'seed:=11')
     by_hand('push_gp', 'gp_server', '-p', f'model:={model.name}')
     by_hand('push_mpc', 'mpc_node', *LOCKSTEP, *SPEED, '-p', 'track:=line')
-    recorder = by_hand('push_bag', 'recorder', '-p', 'folder:=run1')
-    for number in (1, 2):
-        started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
-        assert started.status == 0, started.err
-        assert not wait_until_ended(tmp_path / 'run1', number).stop_reason
-    recorder.send_signal(signal.SIGINT)
-    assert recorder.wait(timeout=HANG) == 0
+    push_twice(by_hand, environment, tmp_path)
 
     reader = BagReader(tmp_path / 'run1')
     assert sum(1 for _ in reader.records()) > 1000
