@@ -14,7 +14,9 @@ from push_bag.record.recorder import open_bag
 from push_bag.record.recorder_settings import RecorderSettings
 from push_bag.repair.recover import recover
 from push_core.common.errors import InputError
+from push_node import interface
 from push_node.interface import TOPICS
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
@@ -136,6 +138,37 @@ def test_a_full_disk_ends_the_recorder_with_status_1_and_one_line(cell, start, t
     assert recorder.returncode == 1
     assert 'recording stopped, what was recorded stays readable' in errors[-1]
     assert sum(1 for _ in BagReader(tmp_path / 'run').records()) > 0
+
+
+def test_a_run_waits_for_the_parameters_of_nodes_that_were_started_by_hand(cell, start, tmp_path):
+    reports = []
+
+    def hear(array):
+        reports.extend(each.message for each in array.status if 'recording' in each.name)
+
+    interface.DIAGNOSTICS.subscription(cell, hear)
+    spinner = SingleThreadedExecutor()
+    spinner.add_node(cell)
+
+    def heard(message):
+        spinner.spin_once(timeout_sec=0.1)
+        return message in reports
+
+    controller = Node('mpc_node')
+    try:
+        controller.declare_parameter('horizon', 7)
+        recorder = start(f'folder:={tmp_path / "run"}')
+        wait_until(lambda: heard('parameters of mpc_node not yet read'))
+        reports.clear()
+        spinner.add_node(controller)
+        wait_until(lambda: heard('recording'))
+        recorder.send_signal(signal.SIGINT)
+        recorder.communicate(timeout=PATIENCE)
+    finally:
+        controller.destroy_node()
+    reader = BagReader(tmp_path / 'run')
+    list(reader.records())
+    assert b'horizon: 7' in reader.attachments['params.yaml']
 
 
 def test_a_wrong_parameter_is_one_line_and_status_2(start, tmp_path):

@@ -52,6 +52,16 @@ class CellInputs:
         self._model = RepeatedRequest(interface.GET_MODEL.client(node), GetModel.Request())
         self._attached: set[str] = set()
 
+    @property
+    def awaited(self) -> set[str]:
+        """Nodes that are there and have not yet stated their parameters.
+
+        A run that begins before they have is not reproducible: what changes meanwhile would be
+        taken for the values at its start.
+        """
+        there = {name for name, each in self._parameters.items() if each.is_there}
+        return there - self._attached
+
     def poll(self) -> None:
         """Attaches what has come since the last call.
 
@@ -87,9 +97,15 @@ class _NodeParameters:
     def __init__(self, node: Node, name: str) -> None:
         full_name = f'{node.get_namespace().rstrip("/")}/{name}'
         listing, self._get = parameter_clients(node, full_name)
+        self._listing = listing
         self._listed = RepeatedRequest(listing, ListParameters.Request())
         self._names: list[str] = []
         self._answered: RepeatedRequest | None = None
+
+    @property
+    def is_there(self) -> bool:
+        """Whether the node can be asked."""
+        return bool(self._listing.service_is_ready())
 
     def values(self) -> dict[str, Any] | None:
         """Values by name; None until they have come."""

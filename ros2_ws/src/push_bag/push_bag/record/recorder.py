@@ -114,7 +114,7 @@ class Recorder(Node):  # type: ignore[misc]
             self._inputs.poll()
         for topic in self._recording.refused.keys() - refused:
             self.get_logger().warning(f'{topic}: {self._recording.refused[topic]}')
-        if not self._was_complete and not self._missing():
+        if not self._was_complete and not self._missing() and not self._awaited():
             self._was_complete = True
             self._discovery.timer_period_ns = round(LATER_DISCOVERY_PERIOD * 1e9)
             self._report()
@@ -124,15 +124,23 @@ class Recorder(Node):  # type: ignore[misc]
             self._reporter.report(ERROR, str(self._failure), self._counts())
             return
         missing = ', '.join(sorted(self._missing()))
+        awaited = ', '.join(sorted(self._awaited()))
         lost = sum(seen.lost for seen in self._recording.traffic.values())
         findings = [
             (ERROR, f'no publisher of {missing}' if missing else ''),
+            (ERROR, f'parameters of {awaited} not yet read' if awaited else ''),
             (WARN, f'{lost} messages lost' if lost >= self._lost_warn else ''),
         ]
         self._reporter.report(*worst(findings, 'recording'), self._counts())
 
     def _missing(self) -> set[str]:
         return self._core - self._recording.traffic.keys()
+
+    def _awaited(self) -> set[str]:
+        """Nodes whose parameters a run has to wait for."""
+        if self._was_complete or self._inputs is None:
+            return set()
+        return self._inputs.awaited
 
     def _counts(self) -> dict[str, str]:
         return {
