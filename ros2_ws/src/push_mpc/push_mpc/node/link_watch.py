@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from push_node import interface
 from push_node.diagnostics import status_name
 from push_node.endpoints import parameter_clients
-from push_node.graph import publisher_names
+from push_node.graph import UNNAMED, publisher_names
 from push_node.stamps import to_nanoseconds, to_seconds
 from rcl_interfaces.srv import GetParameters
 from rclpy.client import Client
@@ -60,7 +60,7 @@ class LinkWatch:
     def poll(self) -> None:
         """Sends a request if the last one is answered or lost; call it periodically."""
         drivers = publisher_names(self._node, interface.OBJECT_POSE.name)
-        if len(drivers) != 1:
+        if len(drivers) != 1 or drivers == [UNNAMED]:
             return
         if drivers[0] != self._driver:
             self._driver, self._estimate = drivers[0], LinkEstimate()

@@ -2,10 +2,18 @@
 
 from push_node.graph.sources import (
     SINGLE_SOURCE,
+    UNNAMED,
     publisher_names,
     second_source,
     subscriber_names,
 )
 from push_node.graph.topic_names import full_name
 
-__all__ = ['SINGLE_SOURCE', 'full_name', 'publisher_names', 'second_source', 'subscriber_names']
+__all__ = [
+    'SINGLE_SOURCE',
+    'UNNAMED',
+    'full_name',
+    'publisher_names',
+    'second_source',
+    'subscriber_names',
+]

@@ -13,15 +13,18 @@ warnings.filterwarnings('ignore', 'A zero depth with KEEP_LAST', UserWarning)
 
 SINGLE_SOURCE = (OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD)
 """Topics with one publisher in a cell."""
+UNNAMED = 'a node that has not told its name yet'
+"""In place of a name: discovery brings it after the publisher; what is no ROS node has none."""
+_NO_NAME = '_NODE_NAME_UNKNOWN_'  # of rmw_dds_common
 
 
 def publisher_names(node: Node, topic: str) -> list[str]:
-    """Full names of the nodes that publish a topic, one for each publisher, sorted."""
+    """Full names of the nodes that publish a topic or `UNNAMED`, one a publisher, sorted."""
     return sorted(map(_full_name, node.get_publishers_info_by_topic(topic)))
 
 
 def subscriber_names(node: Node, topic: str) -> list[str]:
-    """Full names of the nodes that subscribe to a topic, sorted."""
+    """Full names of the nodes that subscribe to a topic or `UNNAMED`, sorted."""
     return sorted(map(_full_name, node.get_subscriptions_info_by_topic(topic)))
 
 
@@ -36,4 +39,6 @@ def _conflict(node: Node, topic: GraphTopic) -> str:
 
 
 def _full_name(endpoint: TopicEndpointInfo) -> str:
+    if endpoint.node_name == _NO_NAME:
+        return UNNAMED
     return f'{endpoint.node_namespace.rstrip("/")}/{endpoint.node_name}'
