@@ -9,6 +9,7 @@ scripts=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)
 root=$(dirname -- "$scripts")
 . "$scripts/setup/say.sh"
 . "$scripts/setup/ros.sh"
+. "$scripts/setup/versions.sh"
 pythons=${PYTHONS:-3.10 3.11 3.12 3.13}
 clones=$root/.cache/matrix
 
@@ -27,15 +28,6 @@ main() {
     fi
   done
   return "$status"
-}
-
-# find_version VERSION: its interpreter; a shim of pyenv is none where the version is not chosen.
-find_version() {
-  local name
-  for name in "python$1" "${PYENV_ROOT:-${HOME:-}/.pyenv}/versions/$1".*/bin/"python$1"; do
-    "$name" -c 'import sys; print(sys.executable)' 2> /dev/null && return
-  done
-  return 0
 }
 
 run_version() {

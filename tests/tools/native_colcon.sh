@@ -5,24 +5,28 @@
 #   tests/tools/native_colcon.sh                                   all tests
 #   tests/tools/native_colcon.sh --packages-select push_node       arguments for `colcon test`
 #
-# PYTHON names the interpreter (default python3.12). What is committed is tested, in a clone below
-# .cache. The status is 1 where a test fails; colcon's own output is in ros2_ws/log of the clone.
+# PYTHON names the interpreter (default: a Python 3.12 on the PATH or of pyenv). What is committed is
+# tested, in a clone below .cache. The status is 1 where a test fails; colcon's own output is in
+# ros2_ws/log of the clone.
+# shellcheck source-path=SCRIPTDIR/../../scripts/setup
 set -euo pipefail
 
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 clone=$here/.cache/native
+. "$here/scripts/setup/versions.sh"
 export PUSH_DATA_DIR=${PUSH_DATA_DIR:-$here/../shared/data}
 
 main() {
   [ -e "$clone" ] || git clone --quiet --shared --no-checkout "$here" "$clone"
   git -C "$clone" checkout --quiet --force --detach "$(git -C "$here" rev-parse HEAD)"
-  make -C "$clone" setup PYTHON="${PYTHON:-python3.12}"
+  make -C "$clone" setup PYTHON="${PYTHON:-$(find_version 3.12)}"
   use_versions_of_ubuntu
   "$clone/scripts/in_env" bash -euc "$(declare -f build_and_test); build_and_test \"\$@\"" colcon "$@"
 }
 
 use_versions_of_ubuntu() {
-  "$clone/.venv/bin/python" -m pip install --quiet numpy==1.26.4 setuptools==68.1.2
+  # contourpy, of matplotlib, is the last one that takes numpy 1
+  "$clone/.venv/bin/python" -m pip install --quiet numpy==1.26.4 setuptools==68.1.2 contourpy==1.3.2
   # the CMake files of the wheels name numpy's headers, which lay elsewhere before numpy 2
   find "$clone/.venv/share" -name '*Export.cmake' -exec sed -i 's|numpy/_core/include|numpy/core/include|g' {} +
 }
@@ -30,6 +34,9 @@ use_versions_of_ubuntu() {
 build_and_test() {
   cd "$VIRTUAL_ENV/../ros2_ws"
   rm -rf build install log
+  # without the packages of the set-up, which are gone
+  export AMENT_PREFIX_PATH=$VIRTUAL_ENV CMAKE_PREFIX_PATH=$VIRTUAL_ENV
+  unset PYTHONPATH
   colcon build --symlink-install --cmake-args "-DPython3_EXECUTABLE=$VIRTUAL_ENV/bin/python"
   set +u
   # shellcheck source=/dev/null
