@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from push_mpc.loop.controller import Controller, Mode, horizon_stride
+from push_mpc.loop.controller import Controller, Mode
+from push_mpc.loop.tracker import horizon_stride
 from push_mpc.plan.planning import planned
 from push_mpc.settings.node_settings import mpc_settings
 from push_mpc.settings.presets import with_preset

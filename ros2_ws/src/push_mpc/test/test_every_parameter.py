@@ -92,9 +92,9 @@ def commands(table: Table, settings: MpcSettings) -> Callable[..., Array]:
         made = Controller(named, named.slider, planned(named))
         made.use(made.prepare_model(table, 'table'))
         made.arm()
-        healthy, ticks = made._steering.solve, []
+        healthy, ticks = made._tracker.steering.solve, []
         for tick, (pair, exposure) in enumerate(zip(seen, times(), strict=True)):
-            made._steering.solve = no_solution if tick in FAILING else healthy
+            made._tracker.steering.solve = no_solution if tick in FAILING else healthy
             ticks.append(made.step(*pair, exposure, exposure + 0.005))
         return np.array([tick.velocity for tick in ticks])
 

@@ -7,7 +7,8 @@ import pytest
 from push_core.physics.limit_surface import LimitSurface
 from push_core.physics.motion_cone import ContactMode, MotionCone
 from push_core.tracks.built_in import by_name
-from push_mpc.loop.controller import Mode, horizon_stride
+from push_mpc.loop.controller import Mode
+from push_mpc.loop.tracker import horizon_stride
 from push_mpc.motion.contact_force import ContactForce
 from push_mpc.plan.nominal import flat_plan
 from push_mpc.qp.force_steering import FAMILY, ForceSteering

@@ -31,7 +31,7 @@ def test_a_solver_without_an_answer_slows_the_tip_down_and_fails_after_some_tick
     tracking, monkeypatch, solve
 ) -> None:
     before = np.hypot(*tracking.tick().velocity)
-    monkeypatch.setattr(tracking.controller._steering, 'solve', solve)
+    monkeypatch.setattr(tracking.controller._tracker.steering, 'solve', solve)
     step = 0.05
     for count in range(1, GUARD.solver_failures):
         tick = tracking.tick()
@@ -46,7 +46,7 @@ def test_a_solver_without_an_answer_slows_the_tip_down_and_fails_after_some_tick
 
 
 def test_a_solver_that_fails_now_and_then_costs_a_tick_each(tracking, monkeypatch) -> None:
-    steering = tracking.controller._steering
+    steering = tracking.controller._tracker.steering
     healthy, calls = steering.solve, []
 
     def fickle(*problem):

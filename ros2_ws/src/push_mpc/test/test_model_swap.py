@@ -7,6 +7,7 @@ import pytest
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_mpc.loop.controller import Controller, Mode
+from push_mpc.loop.tracker import Tracker
 
 
 @pytest.fixture
@@ -34,7 +35,8 @@ def test_taking_it_over_solves_and_prepares_nothing(tracking, other, monkeypatch
         raise AssertionError('the 10 ms loop did the work of the worker')
 
     with monkeypatch.context() as patched:
-        for name in ('_solve', '_prepare', 'prepare_model'):
-            patched.setattr(Controller, name, busy)
+        for name in ('solve', 'prepare', 'staged'):
+            patched.setattr(Tracker, name, busy)
+        patched.setattr(Controller, 'prepare_model', busy)
         tracking.controller.use(other)
     assert tracking.tick().solver_status == 1

@@ -2,7 +2,7 @@ from dataclasses import replace
 
 import pytest
 from push_core.common.errors import InputError
-from push_mpc.loop.controller import horizon_stride
+from push_mpc.loop.tracker import horizon_stride
 from push_mpc.plan.planning import planned
 from push_mpc.settings.node_settings import mpc_settings
 

@@ -186,7 +186,7 @@ def test_opened_bounds_need_no_violation(impossible) -> None:
 def test_where_the_bounds_can_be_kept_the_relaxed_problem_has_the_same_solution(
     recorded, tracking
 ) -> None:
-    (qp,) = tracking.controller._steering.solvers
+    (qp,) = tracking.controller._tracker.steering.solvers
     exact = qp.problem
     first = slice(exact.states, exact.states + NU)
     qp._relaxed.solve(exact.matrix.data, exact.linear, exact.low, exact.high)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from push_core.physics import Slider
-from push_mpc.loop import controller
+from push_mpc.loop import tracker
 from push_mpc.qp import Move, Steering
 from push_mpc.settings import ControllerSettings
 
@@ -16,7 +16,7 @@ from push_bringup.graph import MODULES
 
 SLOW = 0.02  # [s]
 _INFEASIBLE, _ITERATION_LIMIT = 3, 7
-_make = controller._steering
+_make = tracker.made_steering
 
 
 class SickSteering:
@@ -27,6 +27,10 @@ class SickSteering:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._healthy, name)
+
+    def of_slider(self, slider: Slider) -> 'SickSteering':
+        """See `Steering.of_slider`."""
+        return SickSteering(self._healthy.of_slider(slider))
 
     def solve(self, *arguments: Any) -> Move:
         """See `Steering.solve`."""
@@ -47,5 +51,5 @@ def _sick(settings: ControllerSettings, slider: Slider, speed: float) -> Any:
 
 
 if __name__ == '__main__':
-    controller._steering = _sick
+    tracker.made_steering = _sick
     sys.exit(resolve_name(f'{MODULES["mpc_node"]}:main')())

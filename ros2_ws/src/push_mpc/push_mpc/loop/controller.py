@@ -1,13 +1,10 @@
 """The controller: poses in, tip velocities out; no ROS, and time is an argument."""
 
 import math
-import time as clock
 from dataclasses import replace
-from pkgutil import resolve_name
 
 import numpy as np
-from push_core.common import InterruptsHeld
-from push_core.geometry import Array, rotation, wrap_angle
+from push_core.geometry import Array, rotation
 from push_core.physics import Slider, limit, slowed
 
 from push_mpc.estimate import FaceEstimator, ObjectFilter, Predictor
@@ -16,16 +13,15 @@ from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
 from push_mpc.loop.prepared_model import PreparedModel
 from push_mpc.loop.reference_clock import ReferenceClock
 from push_mpc.loop.tick import Tick
+from push_mpc.loop.tracker import Tracker
 from push_mpc.motion import TravelMotion
 from push_mpc.plan import Lesson, Placement, Plan, consistent_plan, guesses
-from push_mpc.qp import Move, PlannedStates, Problem, Steering
-from push_mpc.settings import CONTROLLERS, ControllerSettings, approach, departure, is_apart
+from push_mpc.qp import Move, Problem
+from push_mpc.settings import ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
 _STILL = np.zeros(2)
-_RAISED = 0  # status of a solver that raised an exception
 _LEARNED_CHANGE = 1.5  # of a plan with an identified model, see `consistent_plan`
-_DELAYS = 3.0  # of the robot; shortest filter of the model error
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
@@ -44,15 +40,9 @@ class Controller:
         self._slider = slider
         self._predictor = Predictor(settings.actuator, slider, settings.command_timeout)
         self._guard = Guard(settings, slider)
-        self._filter = ObjectFilter(filter_length(settings, plan.speed), slider)
+        self._filter = ObjectFilter(settings.filter_length(plan.speed), slider)
         self._face = FaceEstimator(slider)
-        self._steering = _steering(settings, slider, plan.speed)
-        # OSQP has a handler of its own while it solves
-        self._interrupts_held = InterruptsHeld()
-        self._stride = horizon_stride(plan, settings)
-        self._steps = self._stride * np.arange(settings.horizon_steps + 1)
-        self._samples = self._steps.copy()
-        self._prepared = ('', -1)
+        self._tracker = Tracker(settings, slider, plan)
         self._model: PreparedModel | None = None
         self._along_track: PreparedModel | None = None
         self._placement: Placement | None = None
@@ -87,12 +77,12 @@ class Controller:
     @property
     def horizon_step(self) -> float:
         """Time between the states of the horizon [s]."""
-        return self._stride * self.plan.period
+        return self._tracker.horizon_step
 
     @property
     def problems(self) -> tuple[Problem, ...]:
         """The QPs of the latest tick; after a stop by the solver those that it did not solve."""
-        return tuple(solver.problem for solver in self._steering.solvers)
+        return self._tracker.problems
 
     def prepare_model(
         self, table: Table, model_id: str, lesson: Lesson | None = None
@@ -108,9 +98,9 @@ class Controller:
         plan = lesson.reference(self.track_plan)
         if self.settings.consistent_plan:
             plan = self._consistent(plan, table, lesson) or plan
-        steering = self._steering.of_slider(lesson.slider or self._slider)
-        staged = steering.staged(table, plan, self._stride)
-        return PreparedModel(table, plan, staged, model_id, lesson.slider or self._slider)
+        slider = lesson.slider or self._slider
+        staged = self._tracker.staged(table, plan, slider)
+        return PreparedModel(table, plan, staged, model_id, slider)
 
     def _consistent(self, plan: Plan, table: Table, lesson: Lesson) -> Plan | None:
         """The plan that agrees with a model's motion, None if none is found."""
@@ -126,10 +116,8 @@ class Controller:
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""
         first = self._model is None
-        self._steering = self._steering.of_slider(model.slider)
         # limits may have changed since it was prepared
-        bounded = self._steering.bounded(model.staged)
-        model = self._along_track = replace(model, staged=bounded)
+        model = self._along_track = replace(model, staged=self._tracker.use(model))
         self._model = model.placed(self._placement) if self._placement else model
         if first:
             self._warm_up()
@@ -141,16 +129,15 @@ class Controller:
         sparsity of the QP are made of the others.
         """
         self.settings = settings
-        self._steering.change(settings)
+        self._tracker.change(settings)
         self._guard.change(settings)
         if self._model is not None and self._along_track is not None:
-            sample = self._prepared[1]
-            self._prepared = ('', -1)
+            sample = self._tracker.unload()
             self.use(self._along_track)
-            self._prepare(self._model, sample)
+            self._tracker.prepare(self._model, sample)
             if self.mode not in FOLLOWING:
                 self._warm_up()
-        length = filter_length(settings, self.plan.speed)
+        length = settings.filter_length(self.plan.speed)
         if length != self._filter.length:
             self._filter.change(length)
 
@@ -183,7 +170,7 @@ class Controller:
         self.plan = self._placement.of(self.track_plan) if self._placement else self.track_plan
         if self._along_track is not None:
             self.use(self._along_track)
-        self._prepared = ('', -1)
+        self._tracker.unload()
 
     def stop(self, reason: str) -> None:
         """Brings the command to zero; the stop latches until `resume`, and so does its reason."""
@@ -284,8 +271,8 @@ class Controller:
     def _warm_up(self) -> None:
         """Solves at the start of the plan, so that a run depends on none before it."""
         if self._model is not None:
-            self._steering.forget()
-            self._prepared = ('', -1)
+            self._tracker.forget()
+            self._tracker.unload()
             self._solve(self._model.plan.state[0], 0.0)
 
     def _slow_down(self, tick: Tick, now: float) -> Tick:
@@ -312,7 +299,7 @@ class Controller:
     def prepare_next(self) -> None:
         """Prepares the next tick's QP as far as it needs no pose; call it after sending."""
         if self.mode == Mode.TRACKING and self._model is not None:
-            self._prepare(self._model, self._prepared[1] + 1)
+            self._tracker.prepare_next(self._model)
 
     def _count_poses(self, now: float) -> None:
         self._seen += 1
@@ -365,7 +352,7 @@ class Controller:
         assert self._model is not None
         if self.mode != Mode.RECONTACT:
             return self._solve(predicted, reference_time)
-        self._steering.forget()
+        self._tracker.forget()
         reference, nominal = self._model.plan.at(reference_time)
         velocity = approach(self.settings.recontact, self._slider, gap, predicted[3], reference[3])
         tick = Tick(self.mode, _STILL, predicted=predicted, reference=reference, input=velocity)
@@ -377,47 +364,12 @@ class Controller:
 
     def _solve(self, state: Array, reference_time: float) -> Tick:
         """Solves the QP for a state (4,) at a reference time [s]."""
-        started = clock.perf_counter()
-        model = self._model
-        assert model is not None
-        reference, nominal = model.plan.at(reference_time)
-        deviation = state - reference
-        deviation[2] = wrap_angle(deviation[2])
-        self._prepare(model, round(max(reference_time, 0.0) / model.plan.period))
-        move = self._solved(model, state, deviation, reference_time)
+        assert self._model is not None
+        rate, sent = self._filter.rate, self._sent
+        tick, move = self._tracker.solve(self._model, state, reference_time, rate, sent)
+        tick.mode = self.mode
         self._count_failure(move)
-        return Tick(
-            self.mode,
-            _STILL,
-            predicted=state,
-            reference=reference,
-            input=move.velocity if move.usable else None,
-            nominal_input=nominal,
-            solve_ms=1e3 * (clock.perf_counter() - started),
-            iterations=move.iterations,
-            solver_status=move.status,
-            planned=PlannedStates(model.plan, self._samples, move.states) if move.usable else None,
-        )
-
-    def _solved(
-        self, model: PreparedModel, state: Array, deviation: Array, reference_time: float
-    ) -> Move:
-        """The result of the steering; of one that raises, a move that cannot be used."""
-        # a tip that is already past the end of the face must not make the QP infeasible
-        widening = max(abs(state[3]) - 0.5 * self._slider.side, 0.0)
-        try:
-            with self._interrupts_held:
-                return self._steering.solve(
-                    model.staged,
-                    state,
-                    deviation,
-                    reference_time,
-                    widening,
-                    self._filter.rate,
-                    rotation(state[2]).T @ self._sent,
-                )
-        except Exception as error:  # noqa: BLE001  whatever it is, the tip must come to rest
-            return Move(_STILL, _RAISED, 0, f'it raised {error!r}', np.empty((0, 4)))
+        return tick
 
     def _count_failure(self, move: Move) -> None:
         """Fails after too many ticks in a row without a usable input, or in the warm-up."""
@@ -432,15 +384,6 @@ class Controller:
                 f'(status {move.status}): {move.fault}'
             )
 
-    def _prepare(self, model: PreparedModel, sample: int) -> None:
-        """Loads the QP data of the horizon that starts at a sample, unless it is loaded."""
-        if self._prepared == (model.model_id, sample):
-            return
-        # the horizon stays at the plan's last sample
-        np.minimum(self._steps + sample, len(model.plan.state) - 1, out=self._samples)
-        self._steering.prepare(model.staged, self._samples)
-        self._prepared = (model.model_id, sample)
-
     def _limit(self, tick: Tick, heading: float, tip: Array) -> None:
         """Turns the input into a world velocity within the limits; without one slows down."""
         if tick.input is None:
@@ -453,28 +396,3 @@ class Controller:
             desired, self._sent, tip, self.settings.limits, self.settings.period
         )
         tick.input = turn.T @ tick.velocity
-
-
-def _steering(settings: ControllerSettings, slider: Slider, speed: float) -> Steering:
-    steering_class = resolve_name(CONTROLLERS[settings.controller].steering)
-    steering: Steering = steering_class(settings, slider, speed)
-    return steering
-
-
-def filter_length(settings: ControllerSettings, speed: float) -> float:
-    """Travel [m] over which the model error is estimated along a plan of a speed [m/s].
-
-    The commands under way cannot answer to an estimate: it must not change faster than they do.
-    """
-    if settings.disturbance_length == 0.0 or not settings.relinearise:
-        return settings.disturbance_length
-    delay = settings.actuator.dead_time + settings.actuator.lag
-    return max(settings.disturbance_length, _DELAYS * speed * delay)
-
-
-def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
-    """Plan samples per horizon step, from `horizon_step` [s] or else `horizon_length` [m]."""
-    if settings.horizon_step > 0.0:
-        return max(1, round(settings.horizon_step / plan.period))
-    step = settings.horizon_length / settings.horizon_steps / plan.speed
-    return max(1, round(step / plan.period))

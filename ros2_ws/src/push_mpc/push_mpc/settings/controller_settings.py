@@ -10,6 +10,7 @@ from push_mpc.settings.guard_settings import GuardSettings
 from push_mpc.settings.recontact import RecontactSettings
 
 _CHANGE_SPEED = 0.08  # [m/s]
+_DELAYS = 3.0  # of the robot; shortest filter of the model error
 
 
 def change_share(speed: float) -> float:
@@ -144,3 +145,13 @@ class ControllerSettings:
 
     def __post_init__(self) -> None:
         validate(self)
+
+    def filter_length(self, speed: float) -> float:
+        """Travel [m] over which the model error is estimated along a plan of a speed [m/s].
+
+        Commands under way cannot answer to an estimate: it must not change faster than they do.
+        """
+        if self.disturbance_length == 0.0 or not self.relinearise:
+            return self.disturbance_length
+        delay = self.actuator.dead_time + self.actuator.lag
+        return max(self.disturbance_length, _DELAYS * speed * delay)
