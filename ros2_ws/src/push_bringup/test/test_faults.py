@@ -8,6 +8,8 @@ from push_bringup.faults.campaign import cases, summary
 from push_bringup.faults.case import Case, Fault, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
 from push_bringup.faults.observer import Seen
+from push_bringup.faults.sick import FAULT_FILE
+from push_bringup.faults.sick_controller import SickSteering
 from push_bringup.faults.verdict import problems, rest_time
 from push_mpc.loop import Mode
 
@@ -101,3 +103,20 @@ def test_every_fault_says_what_happens_and_why_a_run_stops(kind) -> None:
     fault = KINDS[kind]
     assert fault.text
     assert fault.outcome != Outcome.STOPS or fault.reason
+
+
+class Healthy:
+    """A steering that solves everything."""
+
+    def of_slider(self, _slider):
+        return self
+
+    def solve(self):
+        return 'solved'
+
+
+def test_a_solver_stays_sick_when_a_model_is_taken(monkeypatch, tmp_path) -> None:
+    (tmp_path / 'fault').write_text('raises')
+    monkeypatch.setenv(FAULT_FILE, str(tmp_path / 'fault'))
+    with pytest.raises(ArithmeticError):
+        SickSteering(Healthy()).of_slider('another').solve()
