@@ -36,7 +36,8 @@ def used(environment: Mapping[str, str]) -> Endpoints:
     with tempfile.TemporaryDirectory() as folder:
         command = [
             *(sys.executable, '-m', 'push_bringup.commands.cell', '--controller', 'analytical'),
-            *('--track', 'line', '--speed', '0.1', '-p', 'mpc_node.pose_loss:=10.0', '-o', folder),
+            *('--track', 'line', '--speed', '0.1', '--learn', '-o', folder),
+            *('-p', 'mpc_node.pose_loss:=10.0'),
         ]
         with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as cell:
             try:

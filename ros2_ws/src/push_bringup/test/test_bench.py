@@ -227,7 +227,7 @@ def test_a_lap_teaches_the_next_what_its_plant_is() -> None:
 
 
 def test_after_a_bad_lap_the_next_is_driven_like_the_best(monkeypatch) -> None:
-    monkeypatch.setattr('push_bringup.in_process.lap_learner.WORSE', 0.0)
+    monkeypatch.setattr('push_gp.learn.lap_learner.WORSE', 0.0)
     circle, plant = Experiment('circle', 0.2), {'world.engine': 'quasi_static'}
     job = LapJob(circle, 'gp', 'analytical', 'ideal', 0, plant, laps=4, learn=True)
     parameters = job.parameters()

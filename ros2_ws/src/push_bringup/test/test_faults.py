@@ -108,8 +108,8 @@ def test_every_fault_says_what_happens_and_why_a_run_stops(kind) -> None:
 class Healthy:
     """A steering that solves everything."""
 
-    def of_slider(self, _slider):
-        return self
+    def take(self, slider):
+        self.slider = slider
 
     def solve(self):
         return 'solved'
@@ -118,5 +118,7 @@ class Healthy:
 def test_a_solver_stays_sick_when_a_model_is_taken(monkeypatch, tmp_path) -> None:
     (tmp_path / 'fault').write_text('raises')
     monkeypatch.setenv(FAULT_FILE, str(tmp_path / 'fault'))
+    sick = SickSteering(Healthy())
+    sick.take('another')
     with pytest.raises(ArithmeticError):
-        SickSteering(Healthy()).of_slider('another').solve()
+        sick.solve()

@@ -18,7 +18,7 @@ from push_mpc.table.surrogate import Table
 # those of the node alone; test_mpc_node.py, test_pose_gate.py and test_planning.py cover them
 OF_THE_NODE = {
     *('profile', 'preset', 'mode', 'start_from'),
-    *('pose_timeout', 'pose_loss', 'require_recorder'),
+    *('pose_timeout', 'pose_loss', 'require_recorder', 'learn'),
 }
 USUAL = replaced(
     mpc_settings('irb120'),

@@ -78,7 +78,7 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     family, plan = steering
     stride = horizon_stride(plan, SETTINGS)
     samples = stride * np.arange(SETTINGS.horizon_steps + 1)
-    staged = family.staged(MotionCone(SETTINGS.slider), plan, stride)
+    staged = family.staged(MotionCone(SETTINGS.slider), plan, stride, SETTINGS.slider)
     family.prepare(staged, samples)
     deviation = np.array([0.0, 0.0, 0.0, p_y])
     state = plan.state[0] + deviation
@@ -89,16 +89,29 @@ def test_an_offset_along_the_face_picks_the_mode_that_removes_it(
     assert np.sign(np.round(force[2], 6)) == expected
 
 
-def test_another_friction_is_another_controller_and_the_same_is_itself(steering, slider) -> None:
-    family, _ = steering
-    assert family.of_slider(slider) is family
-    other = family.of_slider(replace(slider, friction_pusher=0.5))
-    assert other.of_slider(slider) is not other
+def test_another_friction_is_taken_without_building_a_solver(steering, slider) -> None:
+    plan = steering[1]
+    family = ForceSteering(SETTINGS, slider, plan.speed)
+    other = replace(slider, friction_pusher=0.5, support_radius=0.04)
+    stride = horizon_stride(plan, SETTINGS)
+    samples = stride * np.arange(SETTINGS.horizon_steps + 1)
+    staged = family.staged(MotionCone(other), plan, stride, other)
+    solvers = family.solvers
+    family.take(other)
+    made = ForceSteering(SETTINGS, other, plan.speed)
+    for each in (family, made):
+        each.prepare(each.bounded(staged), samples)
+    assert family.solvers == solvers
+    for pair in zip(family.solvers, made.solvers, strict=True):
+        ours, theirs = (each.problem for each in pair)
+        assert (ours.matrix != theirs.matrix).nnz == 0
+        np.testing.assert_array_equal(ours.high, theirs.high)
+        np.testing.assert_array_equal(ours.low, theirs.low)
 
 
 def test_the_family_differs_in_its_first_stage_alone(steering) -> None:
     family, plan = steering
-    stages = family.staged(MotionCone(SETTINGS.slider), plan, 3).stages
+    stages = family.staged(MotionCone(SETTINGS.slider), plan, 3, SETTINGS.slider).stages
     assert len(stages) == len(FAMILY) == 3
     widths = [stage.high[0] - stage.low[0] for stage in stages]
     assert [bool(width[4] > 0.0) for width in widths] == [False, True, True]
@@ -112,7 +125,7 @@ def test_the_tip_is_never_faster_than_the_limit_wherever_it_touches(slider, p_y)
     for limit in (2.0, 0.1):
         family = ForceSteering(replace(SETTINGS, normal_speed_limit=limit), slider, 0.08)
         stride = horizon_stride(plan, SETTINGS)
-        staged = family.staged(MotionCone(SETTINGS.slider), plan, stride)
+        staged = family.staged(MotionCone(SETTINGS.slider), plan, stride, SETTINGS.slider)
         family.prepare(staged, stride * np.arange(SETTINGS.horizon_steps + 1))
         state, sent = plan.state[0] + behind, plan.input[0]
         move = family.solve(staged, state, behind, 0.0, 0.0, np.zeros(3), sent)

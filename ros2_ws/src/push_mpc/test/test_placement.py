@@ -38,8 +38,8 @@ def test_stages_that_were_turned_are_those_of_the_plan_that_was_turned(
 ) -> None:
     placement = Placement(eight.state[0, :3], THERE)
     made = steering(SETTINGS, slider, 0.08)
-    turned = made.staged(table, eight, 5).placed(placement)
-    anew = made.staged(table, placement.of(eight), 5)
+    turned = made.staged(table, eight, 5, slider).placed(placement)
+    anew = made.staged(table, placement.of(eight), 5, slider)
     for ours, theirs in zip(turned.stages, anew.stages, strict=True):
         for name in ('target', 'low', 'high'):
             np.testing.assert_allclose(

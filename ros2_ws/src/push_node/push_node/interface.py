@@ -67,6 +67,14 @@ ADDED_PUSHES = GraphTopic(
     ('gp_server',),
     'pushes that `push_gp/add_pushes` added to the model',
 )
+LESSON = GraphTopic(
+    'lesson',
+    'push_msgs/msg/Lesson',
+    LATCHED,
+    'once per lap',
+    ('gp_server',),
+    'what laps have taught: friction, support radius, shift of the reference; if it learns',
+)
 HORIZON = GraphTopic(
     'horizon',
     'push_msgs/msg/Horizon',
@@ -150,8 +158,8 @@ CLOCK = GraphTopic(
 
 TOPICS = (
     *(OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD, NOMINAL_TRAJECTORY, CONTROLLER_STATE),
-    *(MODEL_INFO, ADDED_PUSHES, HORIZON, PERTURBATION, GROUND_TRUTH, RUN_END, SCENE_MARKERS),
-    PLAN_MARKERS,
+    *(MODEL_INFO, ADDED_PUSHES, LESSON, HORIZON, PERTURBATION, GROUND_TRUTH, RUN_END),
+    *(SCENE_MARKERS, PLAN_MARKERS),
     *(DIAGNOSTICS, PARAMETER_EVENTS, TRANSFORMS, CLOCK),
 )
 

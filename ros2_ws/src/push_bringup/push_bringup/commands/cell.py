@@ -74,7 +74,9 @@ def _run(request: Request, parameters: CellParameters, plan: Plan, inputs: Path)
         return recorded_in_process(parameters, model, plan)
     from push_bringup.graph.node_graph import run_graph
 
-    return run_graph(inputs / PARAMETERS_FILE, request.namespace, inputs, watch=request.watch)
+    lessons = parameters.mpc.laps if parameters.mpc.learn else 0
+    params = inputs / PARAMETERS_FILE
+    return run_graph(params, request.namespace, inputs, watch=request.watch, lessons=lessons)
 
 
 def _finish(folder: Path, reason: str) -> int:

@@ -18,10 +18,11 @@ EPILOG = """examples:
   ros2 run push_bringup cell --track square --speed 0.05 --controller analytical
   ros2 run push_bringup cell --mode inprocess -p delay_compensation:=false
   ros2 run push_bringup cell --start here -p start.x:=0.1 -p start.theta:=0.5
+  ros2 run push_bringup cell --laps 6 --learn --mode lockstep
   ros2 run push_bringup cell -p mpc_node.weights.contact:=100.0 -o /tmp/runs
 
 The last line printed is the folder of the run: bag, score.json, report.html, logs.
-Exit status: 0 the lap was completed, 1 it was not, 2 the command was wrong, 130 interrupted.
+Exit status: 0 the last lap was completed, 1 it was not, 2 the command was wrong, 130 interrupted.
 """
 
 
@@ -69,6 +70,11 @@ def parser() -> Parser:
         'begin where the object lies, in simulation at start.* (default plan)',
     )
     parser.add_argument('--laps', type=int, help='rounds of a closed track (default 1)')
+    parser.add_argument(
+        '--learn',
+        action='store_true',
+        help='let each lap teach the next: friction, support radius, shift of the reference',
+    )
     parser.add_argument('--seed', type=int, help='of all random numbers (default 0)')
     parser.add_argument(
         '--mode',
@@ -124,6 +130,7 @@ def requested(arguments: argparse.Namespace) -> Request:
         profile=arguments.profile,
         perturb=arguments.perturb,
         laps=arguments.laps,
+        learn=arguments.learn,
         seed=arguments.seed,
         mode=arguments.mode,
         output=arguments.output,

@@ -48,6 +48,7 @@ ARGUMENTS = (
         ('plan', 'here'),
     ),
     LaunchArgument('laps', 'rounds of a closed track', '1'),
+    LaunchArgument('learn', 'let each lap teach the next', 'false', _BOOLEAN),
     LaunchArgument('seed', 'of everything random', '0'),
     LaunchArgument(
         'autostart',

@@ -101,7 +101,7 @@ class _LapRecorder:
     def __init__(self, cell: InProcessCell, laps: int) -> None:
         self._plan = cell.controller.plan
         self._lap_time = self._plan.duration / laps
-        self._learner = cell.learner
+        self._school = cell.school
         self._times: list[float] = []
         self._errors: list[float] = []
         self._truth_errors: list[float] = []
@@ -154,7 +154,9 @@ class _LapRecorder:
         ends = np.arange(self._lap_time, self._times[-1], self._lap_time)
         rows = np.searchsorted(self._times, ends)
         parts = [np.split(np.array(each), rows) for each in (self._errors, self._truth_errors)]
-        known = [None, *(self._learner.identified if self._learner else [None] * len(rows))]
+        lessons = self._school.lessons if self._school else []
+        known = [each.identified if each.model else None for each in lessons]
+        known += [None] * (len(rows) + 1 - len(known))
         return tuple(
             LapErrors(
                 float(errors.mean()),

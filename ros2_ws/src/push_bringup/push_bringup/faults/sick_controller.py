@@ -28,10 +28,6 @@ class SickSteering:
     def __getattr__(self, name: str) -> Any:
         return getattr(self._healthy, name)
 
-    def of_slider(self, slider: Slider) -> 'SickSteering':
-        """See `Steering.of_slider`."""
-        return SickSteering(self._healthy.of_slider(slider))
-
     def solve(self, *arguments: Any) -> Move:
         """See `Steering.solve`."""
         how = ailment()

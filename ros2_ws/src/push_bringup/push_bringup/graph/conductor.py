@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager, contextmanager
 import rclpy
 from push_core.common import RunError
 from push_mpc.loop import Mode
-from push_msgs.msg import ControllerState, NominalTrajectory
+from push_msgs.msg import ControllerState, Lesson, NominalTrajectory
 from push_node import interface
 from push_node.ask import READY_TIMEOUT
 from push_node.spin import Spinner, stop_on_signals
@@ -22,6 +22,7 @@ from push_bringup.graph.processes import Processes
 from push_bringup.graph.starter import Starter
 
 STALL_TIMEOUT = 10.0  # [s] without a tick
+LEARN_TIMEOUT = 60.0  # [s] for which the plant may wait for what a lap teaches
 _ENDS = (Mode.DONE, Mode.STOPPED, Mode.FAULT)
 
 
@@ -29,7 +30,13 @@ class Conductor:
     """A node that calls the services of the cell and listens to its controller."""
 
     def __init__(
-        self, namespace: str, processes: Processes, *, alone: bool = True, watch: bool = False
+        self,
+        namespace: str,
+        processes: Processes,
+        *,
+        alone: bool = True,
+        watch: bool = False,
+        lessons: int = 0,
     ) -> None:
         """Joins the graph.
 
@@ -38,6 +45,7 @@ class Conductor:
             processes: the nodes.
             alone: whether they are still to be started, so that no other may be there.
             watch: whether to show a view of the cell instead of a progress bar.
+            lessons: laps that teach; the run ends when the last one has.
         """
         stop_on_signals()
         init_ros()
@@ -47,6 +55,10 @@ class Conductor:
         self._plan: NominalTrajectory | None = None
         self._state: ControllerState | None = None
         self._last_tick = 0.0
+        self._lessons, self._taught = lessons, 0
+        self._patience = LEARN_TIMEOUT if lessons else STALL_TIMEOUT
+        if lessons:
+            interface.LESSON.subscription(self._node, self._on_lesson)
         interface.NOMINAL_TRAJECTORY.subscription(self._node, self._on_plan)
         interface.CONTROLLER_STATE.subscription(self._node, self._on_state)
         self._end = interface.RUN_END.publisher(self._node)
@@ -98,16 +110,23 @@ class Conductor:
         with self._view or progress_bar() as show:
             while not self._ended():
                 self._spin_once()
-                if time.monotonic() - self._last_tick > STALL_TIMEOUT:
-                    raise RunError(f'no tick of mpc_node for {STALL_TIMEOUT:g} s')
+                if time.monotonic() - self._last_tick > self._patience:
+                    raise RunError(f'no tick of mpc_node for {self._patience:g} s')
                 show(self._state, self._plan)
-        return str(self._state.stop_reason) if self._state else ''
+        reason = str(self._state.stop_reason) if self._state else ''
+        if not reason:
+            taught = 'the last lap taught nothing'
+            self._wait(lambda: self._taught >= self._lessons, LEARN_TIMEOUT, taught)
+        return reason
 
     def _ended(self) -> bool:
         return self._state is not None and self._state.mode in _ENDS
 
     def _on_plan(self, message: NominalTrajectory) -> None:
         self._plan = message
+
+    def _on_lesson(self, message: Lesson) -> None:
+        self._taught = message.laps
 
     def _on_state(self, message: ControllerState) -> None:
         self._state = message

@@ -14,7 +14,9 @@ FAST_DDS_PROFILES = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 REST_TIME = 0.3  # [s] for watchdog, braking and the last messages
 
 
-def run_graph(params: Path, namespace: str, logs: Path, *, watch: bool = False) -> str:
+def run_graph(
+    params: Path, namespace: str, logs: Path, *, watch: bool = False, lessons: int = 0
+) -> str:
     """Starts the nodes, pushes once along the track, stops them cleanly.
 
     Args:
@@ -22,6 +24,7 @@ def run_graph(params: Path, namespace: str, logs: Path, *, watch: bool = False) 
         namespace: of the nodes, '' for none.
         logs: folder for the output of the nodes.
         watch: whether to show a view of the cell in the terminal.
+        lessons: laps that teach.
 
     Returns:
         Reason of an early end, else an empty string.
@@ -39,7 +42,7 @@ def run_graph(params: Path, namespace: str, logs: Path, *, watch: bool = False) 
         # rclpy is slow to import, and other modes need none of it
         from push_bringup.graph.conductor import Conductor  # noqa: PLC0415
 
-        conductor = Conductor(namespace, processes, watch=watch)
+        conductor = Conductor(namespace, processes, watch=watch, lessons=lessons)
         try:
             return conductor.run()
         finally:

@@ -11,7 +11,7 @@ from push_node.stamps import to_seconds
 from push_sim.plant import Observation, Plant
 from tqdm import tqdm
 
-from push_bringup.in_process.lap_learner import LapLearner
+from push_bringup.in_process.school import School
 from push_bringup.in_process.tables import tabulated
 from push_bringup.setup import CellParameters
 
@@ -26,7 +26,7 @@ class InProcessCell:
     Attributes:
         plant: world, robot and cameras.
         controller: commands the tip.
-        learner: learns from every lap; None if nothing is learned.
+        school: lets every lap teach the next; None if nothing is learned.
     """
 
     def __init__(
@@ -40,7 +40,7 @@ class InProcessCell:
         self._first: Observation | None = None
         table = tabulated(model, mpc.slider.side)
         self.controller.use(self.controller.prepare_model(table, model.info.model_id))
-        self.learner = LapLearner(self.controller, mpc) if learn else None
+        self.school = School(self.controller, parameters, model) if learn else None
 
     def start(self) -> None:
         """Resets the plant and arms the controller.
@@ -81,6 +81,8 @@ class InProcessCell:
         origin = nanoseconds(first.time)
         while self.controller.mode not in (Mode.DONE, Mode.STOPPED, Mode.FAULT):
             started = time.perf_counter()
+            if self.school is not None:
+                self.school.use_lesson()
             now = to_seconds(nanoseconds(self.plant.time) - origin)
             if observation is None:
                 tick = self.controller.coast(now)
@@ -89,17 +91,14 @@ class InProcessCell:
                 pose, tip = observation.object_pose, observation.tip_position
                 tick = self.controller.step(pose, tip, exposure, now)
             on_tick(observation, tick, 1e3 * (time.perf_counter() - started))
-            if observation is not None:
-                self._learn(observation, tick)
+            if self.school is not None and observation is not None:
+                self.school.observe(observation, tick)
             self.controller.prepare_next()
             self.plant.command(tick.velocity, self.plant.time)
             observation = self.plant.step()
+        if self.school is not None and self.controller.mode == Mode.DONE:
+            self.school.finish()
         return self.controller.stop_reason
-
-    def _learn(self, observation: Observation, tick: Tick) -> None:
-        learned = self.learner.observe(observation, tick) if self.learner else None
-        if learned is not None:
-            self.controller.use(learned)
 
     def close(self) -> None:
         """Frees the physics server."""

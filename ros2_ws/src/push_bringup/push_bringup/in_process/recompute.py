@@ -15,19 +15,21 @@ from push_bag.replay import Changes, Recomputed
 from push_bag.run import RecordedRun, RecordedTick
 from push_core.common import InputError, replaced
 from push_core.geometry import Array
-from push_gp.models import ANALYTICAL, PushModel, model_named
+from push_gp.models import ANALYTICAL, NOMINAL_DISTANCE, PushModel, model_named
+from push_gp.server.conversions import learned_of
 from push_mpc.loop import MOVING, Controller, Mode
-from push_mpc.plan import planned
+from push_mpc.node import conversions
+from push_mpc.plan import Lesson, planned
 from push_mpc.settings import CONTROLLERS
 from tqdm import tqdm
 
-from push_bringup.in_process.recorded_model import RecordedModel
+from push_bringup.in_process.recorded_model import RecordedModel, recorded_lessons
 from push_bringup.in_process.tables import tabulated
 from push_bringup.setup import CellParameters, recorded_parameters
 
 PARAMS_FILE = 'params.yaml'
-ModelById = Callable[[str], PushModel]
-"""Recorded model id, to the model to use in its place."""
+ModelById = Callable[[str], tuple[PushModel, Lesson | None]]
+"""Recorded model id, to the model to use in its place, and what laps had taught."""
 PlanStart = Callable[[RecordedTick], Array]
 """A tick, to the pose (3,) at which its plan begins."""
 
@@ -128,9 +130,9 @@ class RecomputingController(Controller):
             self.arm(self._plan_start(tick) if self._plan_start else None)
 
     def _take_model(self, recorded_id: str) -> None:
-        model = self._model_by_id(recorded_id)
+        model, lesson = self._model_by_id(recorded_id)
         table = tabulated(model, self._side)
-        self.use(self.prepare_model(table, model.info.model_id))
+        self.use(self.prepare_model(table, recorded_id, lesson))
         self._recorded_id = recorded_id
 
     def _without_poses(self, tick: RecordedTick) -> Array:
@@ -162,11 +164,22 @@ def _compared(run: RecordedRun, controller: RecomputingController, paired: int) 
 
 
 def _models_of(run: RecordedRun, parameters: CellParameters, files: dict[str, Path]) -> ModelById:
-    """The recorded model with the pushes added until then; or the model that the changes name."""
+    """The recorded model as it was at that time; or the model that the changes name."""
     model = model_named(parameters.gp.model, parameters.gp.slider)
     if parameters.gp != _parameters(run, Changes(), files).gp:
-        return lambda _recorded_id: model
-    return RecordedModel(model, parameters.gp.max_points, run.reader).grown_to
+        return lambda _recorded_id: (model, None)
+    grown = RecordedModel(model, parameters.gp.max_points, run.reader)
+    lessons = recorded_lessons(run.reader)
+
+    def driven(recorded_id: str) -> tuple[PushModel, Lesson | None]:
+        if recorded_id not in lessons:
+            return grown.grown_to(recorded_id), None
+        message = lessons[recorded_id]
+        learned = learned_of(message, parameters.gp.slider, NOMINAL_DISTANCE)
+        used = learned.model or grown.grown_to(message.model_id)
+        return used, conversions.lesson_of(message, parameters.mpc)
+
+    return driven
 
 
 def _unpacked(run: RecordedRun, folder: Path) -> dict[str, Path]:

@@ -1,5 +1,6 @@
 """Records a run in one process: the same topics as the node graph, in plant time."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped
@@ -10,7 +11,7 @@ from push_mpc.loop import Controller, Mode, Tick
 from push_mpc.node import conversions as mpc
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
 from push_mpc.settings import MpcSettings
-from push_msgs.msg import ControllerState
+from push_msgs.msg import ControllerState, Lesson
 from push_node import interface
 from push_node.endpoints import GraphTopic
 from push_node.stamps import to_stamp
@@ -20,7 +21,10 @@ from rclpy.serialization import serialize_message
 
 from push_bringup.in_process.loop import nanoseconds
 
-ALSO_RECORDED = (interface.PERTURBATION, interface.HORIZON, interface.GROUND_TRUTH)
+ALSO_RECORDED = (
+    *(interface.PERTURBATION, interface.HORIZON, interface.GROUND_TRUTH),
+    interface.LESSON,
+)
 
 
 class InProcessRecord:
@@ -36,7 +40,7 @@ class InProcessRecord:
         self._horizon = HorizonMessage(steps, controller.horizon_step)
         self._truth = sim.GroundTruthMessage(plant.slider)
         self._sequence: dict[str, int] = {}
-        self._ticks = 0
+        self._ticks = self._lessons = 0
         for topic in interface.TOPICS:
             if topic.core or topic in ALSO_RECORDED:
                 writer.add_topic(topic.absolute_name, topic.type_name, qos_text(topic.qos))
@@ -48,6 +52,14 @@ class InProcessRecord:
         plan.header.stamp = stamp
         self._write(interface.NOMINAL_TRAJECTORY, plan)
         self._write(interface.MODEL_INFO, model_info_message(info, stamp))
+
+    def lessons(self, messages: Sequence[Lesson], models: Sequence[ModelInfo]) -> None:
+        """Writes what laps have taught that is not written yet, and the models of it."""
+        for message, info in zip(messages[self._lessons :], models[self._lessons :], strict=True):
+            message.header.stamp = stamp = to_stamp(nanoseconds(self._plant.time))
+            self._write(interface.LESSON, message)
+            self._write(interface.MODEL_INFO, model_info_message(info, stamp))
+        self._lessons = len(messages)
 
     def tick(self, seen: Observation | None, tick: Tick, tick_ms: float) -> None:
         """Writes one tick: measurement, ground truth, command and state of the controller."""

@@ -1,13 +1,13 @@
-"""The model of a recorded run: the file in its bag, and the pushes added during the run."""
+"""The model of a recorded run: the file in its bag, the pushes added, what its laps taught."""
 
 from push_bag.file import BagReader
 from push_core.common import InputError
 from push_gp.models import PushModel
 from push_gp.server import ModelServer
 from push_gp.server.conversions import pushes_of
-from push_msgs.msg import AddedPushes
+from push_msgs.msg import AddedPushes, Lesson
 from push_node.endpoints import short_name
-from push_node.interface import ADDED_PUSHES
+from push_node.interface import ADDED_PUSHES, LESSON
 
 
 class RecordedModel:
@@ -44,3 +44,14 @@ class RecordedModel:
                 )
             self._server.add_pushes(pushes_of(added))
         return self._server.model
+
+
+def recorded_lessons(reader: BagReader) -> dict[str, Lesson]:
+    """What laps of a run have taught, by id.
+
+    Raises:
+        InputError: a message is not of its topic's type.
+    """
+    names = [name for name in reader.topics if short_name(name) == LESSON.short_name]
+    messages = [record.message() for record in reader.records(names)]
+    return {each.lesson_id: each for each in messages}

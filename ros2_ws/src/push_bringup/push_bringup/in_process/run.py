@@ -21,7 +21,7 @@ def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan
     Raises:
         RunError: the bag cannot be written.
     """
-    cell = InProcessCell(parameters, model, plan)
+    cell = InProcessCell(parameters, model, plan, parameters.mpc.learn)
     cell.start()
     duration = cell.controller.plan.duration
     with (
@@ -31,11 +31,18 @@ def recorded_in_process(parameters: CellParameters, model: PushModel, plan: Plan
         record = InProcessRecord(writer, cell.plant, cell.controller)
         record.head(parameters.mpc, model.info)
 
+        def taught() -> None:
+            if cell.school is not None:
+                record.lessons(cell.school.messages, cell.school.models)
+
         def on_tick(observation: Observation | None, tick: Tick, tick_ms: float) -> None:
+            taught()
             record.tick(observation, tick, tick_ms)
             bar.update(min(max(tick.reference_time, bar.n), duration) - bar.n)
 
         try:
-            return cell.run(on_tick)
+            reason = cell.run(on_tick)
+            taught()
+            return reason
         finally:
             cell.close()

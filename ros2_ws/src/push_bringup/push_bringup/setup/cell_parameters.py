@@ -23,7 +23,7 @@ PLAN_FILE = 'nominal_trajectory.csv'
 DEFAULT_CONTROLLER = 'gp'
 _FACTS = (
     *('track', 'speed', 'controller', 'preset', 'profile', 'perturbation.kind', 'laps', 'seed'),
-    *('mode', 'model', 'require_recorder'),
+    *('mode', 'model', 'learn', 'require_recorder'),
 )
 """Parameters that have facts of their own, or that do not change a run."""
 _MODEL = {'model', 'gp_server.model'}
@@ -110,11 +110,13 @@ def _options(request: Request) -> Values:
     """The values of the request's options that were given."""
     mode = 'lockstep' if request.mode == 'inprocess' else request.mode
     common = {'profile': request.profile, 'mode': mode}
+    learn = {'learn': True} if request.learn else {}
     options: Values = {
         'sim_node': {**common, 'seed': request.seed, 'perturbation.kind': request.perturb},
-        'gp_server': {'model': request.model},
+        'gp_server': {**learn, 'mode': mode, 'model': request.model},
         'mpc_node': {
             **common,
+            **learn,
             'track': request.track,
             'speed': request.speed,
             'laps': request.laps,

@@ -48,13 +48,17 @@ def _check_start(sim: NodeSettings) -> None:
 
 
 def _check_modes(request: Request, parameters: CellParameters) -> None:
-    modes = {parameters.sim.mode, parameters.mpc.mode}
+    modes = {parameters.sim.mode, parameters.mpc.mode, parameters.gp.mode}
     if request.is_in_process and modes != {'lockstep'}:
         raise _useless('mode', 'with --mode inprocess there are no nodes')
     if len(modes) > 1:
         raise InputError(
-            f'sim_node.mode is {parameters.sim.mode}, but mpc_node.mode is '
-            f'{parameters.mpc.mode}; they must be the same, set both with --mode'
+            f'sim_node.mode is {parameters.sim.mode}, mpc_node.mode {parameters.mpc.mode} and '
+            f'gp_server.mode {parameters.gp.mode}; they must be the same, set all with --mode'
+        )
+    if parameters.mpc.learn != parameters.gp.learn:
+        raise InputError(
+            'gp_server.learn and mpc_node.learn must be the same, set both with --learn'
         )
 
 

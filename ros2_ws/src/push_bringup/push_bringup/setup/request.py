@@ -17,6 +17,7 @@ class Request:
         profile: irb120, ideal, harsh or webcam.
         perturb: none, normal or tangential.
         laps: rounds of a closed track.
+        learn: whether each lap teaches the next.
         seed: of everything random.
         mode: realtime, lockstep or inprocess.
         preset: tuned or paper, for the controller.
@@ -35,6 +36,7 @@ class Request:
     profile: str | None = None
     perturb: str | None = None
     laps: int | None = None
+    learn: bool = False
     seed: int | None = None
     mode: str | None = None
     preset: str | None = None

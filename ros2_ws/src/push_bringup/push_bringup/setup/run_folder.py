@@ -99,6 +99,7 @@ def facts(request: Request, parameters: CellParameters) -> dict[str, str]:
         'profile': sim.profile if same else f'{sim.profile}, controller {mpc.profile}',
         'perturb': sim.perturbation.kind,
         'laps': str(mpc.laps),
+        'learn': str(mpc.learn).lower(),
         'seed': str(sim.seed),
         'mode': 'inprocess' if request.is_in_process else mpc.mode,
         'changed': parameters.changed(),

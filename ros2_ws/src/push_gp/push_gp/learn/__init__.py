@@ -2,6 +2,23 @@
 
 from push_gp.learn.cone_learner import ConeLearner
 from push_gp.learn.identification import Identified, identified
+from push_gp.learn.lap_learner import LapLearner, Learned
+from push_gp.learn.laps import LapCollector, Measured, MeasuredLap
+from push_gp.learn.reference_shift import ReferenceShift
 from push_gp.learn.segments import interrupted, segments
+from push_gp.learn.timed_reference import TimedReference
 
-__all__ = ['ConeLearner', 'Identified', 'identified', 'interrupted', 'segments']
+__all__ = [
+    'ConeLearner',
+    'Identified',
+    'LapCollector',
+    'LapLearner',
+    'Learned',
+    'Measured',
+    'MeasuredLap',
+    'ReferenceShift',
+    'TimedReference',
+    'identified',
+    'interrupted',
+    'segments',
+]

@@ -33,14 +33,21 @@ class ConeLearner:
         known: the cone of the last lap; the nominal one before the first.
     """
 
-    def __init__(self, nominal: Slider, distance: float = NOMINAL_DISTANCE) -> None:
-        """Starts from the nominal cone.
+    def __init__(
+        self,
+        nominal: Slider,
+        distance: float = NOMINAL_DISTANCE,
+        known: Identified | None = None,
+    ) -> None:
+        """Starts from the nominal cone, or from one that is known.
 
         Args:
             nominal: slider with the most likely parameters.
             distance: travel of the tip in the pushes [m].
+            known: the cone of laps before.
         """
-        self.known = Identified(SmoothCone(nominal, distance), np.diag(PRIOR_WIDTH**2), 0)
+        unknown = Identified(SmoothCone(nominal, distance), np.diag(PRIOR_WIDTH**2), 0)
+        self.known = known or unknown
         self._nominal = nominal
         self._laps: deque[PushSet] = deque(maxlen=MEMORY)
 

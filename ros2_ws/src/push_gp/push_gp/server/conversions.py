@@ -2,6 +2,7 @@
 
 from array import array
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,11 +10,13 @@ from builtin_interfaces.msg import Time
 from push_core.common import InputError
 from push_core.data import PushSet
 from push_core.geometry import Array
-from push_msgs.msg import AddedPushes
+from push_core.physics import Slider
+from push_msgs.msg import AddedPushes, Lesson, NominalTrajectory
 from push_msgs.msg import ModelInfo as ModelInfoMessage
 from push_msgs.srv import AddPushes, Predict
 
-from push_gp.models import ModelInfo
+from push_gp.learn import Identified, Learned, TimedReference
+from push_gp.models import ModelInfo, SmoothCone
 
 
 def model_info_message(info: ModelInfo, stamp: Time) -> ModelInfoMessage:
@@ -34,6 +37,48 @@ def model_info_message(info: ModelInfo, stamp: Time) -> ModelInfoMessage:
     )
     message.header.stamp = stamp
     return message
+
+
+def reference_of(message: NominalTrajectory) -> TimedReference:
+    """The reference of a plan that was announced."""
+    return TimedReference(
+        message.track,
+        message.speed,
+        message.laps,
+        _vector(message.time),
+        np.column_stack((_vector(message.x), _vector(message.y))),
+        message.theta[0],
+    )
+
+
+def lesson_message(learned: Learned, laps: int, base: str, stamp: Time) -> Lesson:
+    """What a number of laps have taught; `base` is the id of the model before anything was."""
+    slider, known = learned.identified.model.slider, learned.identified
+    message = Lesson(
+        laps=laps,
+        lesson_id=learned.lesson_id(base),
+        model_id=learned.model.info.model_id if learned.model else base,
+        pushes=known.pushes,
+        friction=slider.friction_pusher,
+        support_radius=slider.support_radius,
+        covariance=known.covariance.ravel(),
+        track=learned.track,
+        speed=learned.speed,
+        shift=flat(learned.shift),
+    )
+    message.header.stamp = stamp
+    return message
+
+
+def learned_of(message: Lesson, nominal: Slider, distance: float) -> Learned:
+    """What a message tells; the geometry is that of the nominal slider."""
+    slider = replace(
+        nominal, friction_pusher=message.friction, support_radius=message.support_radius
+    )
+    covariance = _vector(message.covariance).reshape(2, 2)
+    known = Identified(SmoothCone(slider, distance), covariance, message.pushes)
+    shift = _vector(message.shift).reshape(-1, 2)
+    return Learned(known, message.track, message.speed, shift)
 
 
 def queries_of(request: Predict.Request) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""The model server node: `push_gp/predict`, `add_pushes`, `get_model`, and `model_info`."""
+"""The model server node: `push_gp/predict`, `add_pushes`, `get_model`, `model_info`, `lesson`."""
 
 import sys
 from array import array
@@ -18,12 +18,14 @@ from push_gp.models import ANALYTICAL, model_named
 from push_gp.server.conversions import (
     added_pushes_message,
     flat,
+    lesson_message,
     model_info_message,
     pushes_of,
     queries_of,
 )
 from push_gp.server.model_server import ModelServer
 from push_gp.server.server_settings import ServerSettings
+from push_gp.server.teacher import Teacher
 
 REPORT_PERIOD = 1.0
 
@@ -45,6 +47,8 @@ class GpServer(Node):  # type: ignore[misc]
         self._answered = self._refused = 0
         self._announcements = interface.MODEL_INFO.publisher(self)
         self._added = interface.ADDED_PUSHES.publisher(self)
+        self._lessons = interface.LESSON.publisher(self) if settings.learn else None
+        self._teacher = self._taught(settings) if settings.learn else None
         self._reporter = Reporter(self, 'model')
         self._entities = (
             interface.PREDICT.service(self, self._predict),
@@ -52,6 +56,24 @@ class GpServer(Node):  # type: ignore[misc]
             interface.GET_MODEL.service(self, self._get_model),
             self.create_timer(REPORT_PERIOD, self._report),
         )
+        self._announce()
+
+    def destroy_node(self) -> None:
+        """Also ends what learns."""
+        if self._teacher is not None:
+            self._teacher.close()
+        super().destroy_node()
+
+    def _taught(self, settings: ServerSettings) -> Teacher:
+        base = self._server.info.model_id
+        return Teacher(self, settings.mode, settings.slider, base, self._on_lesson)
+
+    def _on_lesson(self) -> None:
+        """Serves what the last lap has taught."""
+        assert self._teacher is not None
+        model = self._teacher.known.model
+        if model is not None:
+            self._server.serve(model)
         self._announce()
 
     def _predict(self, request: Predict.Request, response: Predict.Response) -> Predict.Response:
@@ -105,8 +127,11 @@ class GpServer(Node):  # type: ignore[misc]
         response.model_id = self._server.info.model_id
 
     def _announce(self) -> None:
-        info = self._server.info
-        self._announcements.publish(model_info_message(info, self.get_clock().now().to_msg()))
+        info, stamp = self._server.info, self.get_clock().now().to_msg()
+        if self._teacher is not None and self._lessons is not None:
+            known, laps = self._teacher.known, self._teacher.laps
+            self._lessons.publish(lesson_message(known, laps, info.model_id, stamp))
+        self._announcements.publish(model_info_message(info, stamp))
         self.get_logger().info(
             f'serving {info.kind} model {info.model_id}: {info.points} pushes, '
             f'{info.mean_function} mean, {info.distance * 1e3:g} mm per push'

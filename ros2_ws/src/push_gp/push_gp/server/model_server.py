@@ -52,6 +52,10 @@ class ModelServer:
         """Description of the current model."""
         return self._model.info
 
+    def serve(self, model: PushModel) -> None:
+        """Answers for another model from now on."""
+        self._model = model
+
     def predict(self, p_y: Array, beta: Array, *, want_variance: bool) -> Prediction:
         """Predicts a batch of pushes.
 

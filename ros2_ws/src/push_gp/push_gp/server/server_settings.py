@@ -7,9 +7,7 @@ from push_core.physics import Slider
 
 from push_gp.models import ANALYTICAL, NOMINAL_DISTANCE
 
-_UNUSED = dict.fromkeys(
-    ('mass', 'friction_ground', 'tip_radius'), 'the motion cone does not depend on it'
-)
+_UNUSED = dict.fromkeys(('mass', 'friction_ground'), 'the motion cone does not depend on it')
 
 
 @dataclass(frozen=True)
@@ -30,6 +28,14 @@ class ServerSettings:
         unit='m',
         low=1e-4,
         high=0.1,
+    )
+    learn: bool = setting(
+        False, 'let each lap teach the next one: model and shift of the reference'
+    )
+    mode: str = setting(
+        'realtime',
+        'clock of the cell that it learns from: the system clock, or /clock',
+        choices=('realtime', 'lockstep'),
     )
     slider: Slider = nested(Slider(), _UNUSED)
 

@@ -52,11 +52,11 @@ class Tracker:
             plan: to track.
             slider: with the identified friction and support radius.
         """
-        return self.steering.of_slider(slider).staged(table, plan, self._stride)
+        return self.steering.staged(table, plan, self._stride, slider)
 
     def use(self, model: PreparedModel) -> StagedPlan:
         """Steers with a model from now on; its plan with the speed limits in effect."""
-        self.steering = self.steering.of_slider(model.slider)
+        self.steering.take(model.slider)
         return self.steering.bounded(model.staged)
 
     def change(self, settings: ControllerSettings) -> None:

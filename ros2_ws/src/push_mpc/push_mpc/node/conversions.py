@@ -2,17 +2,19 @@
 
 import math
 from array import array
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from push_core.geometry import Array, quaternion_to_yaw
 from push_msgs.msg import ControllerState, NominalTrajectory
+from push_msgs.msg import Lesson as LessonMessage
 from push_msgs.srv import Predict
 from push_node.stamps import to_stamp
 
 from push_mpc.loop import Tick
-from push_mpc.plan import Plan
+from push_mpc.plan import Lesson, Plan
 from push_mpc.settings import MpcSettings
 from push_mpc.table import Query, QueryResult
 
@@ -64,7 +66,7 @@ def fill_state(message: ControllerState, tick: Tick) -> None:
 
 def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
     """The plan up to the end of the reference, without the overrun for the horizon."""
-    count = math.ceil(plan.duration / plan.period) + 1
+    time, state, inputs = plan.until_end()
     message = NominalTrajectory(
         track=Path(settings.track).stem,
         controller=settings.controller,
@@ -74,13 +76,22 @@ def nominal_message(plan: Plan, settings: MpcSettings) -> NominalTrajectory:
         laps=settings.laps,
     )
     message.header.frame_id = 'world'
-    last_state, last_input = plan.at(plan.duration)
-    state = np.vstack([plan.state[: count - 1], last_state])
-    inputs = np.vstack([plan.input[: count - 1], last_input])
-    message.time = np.append(plan.time[: count - 1], plan.duration).tolist()
+    message.time = time.tolist()
     message.x, message.y, message.theta, message.p_y = (column.tolist() for column in state.T)
     message.v_n, message.v_t = (column.tolist() for column in inputs.T)
     return message
+
+
+def lesson_of(message: LessonMessage, settings: MpcSettings) -> Lesson:
+    """What laps have taught; without the shift where that is of another reference."""
+    slider = replace(
+        settings.slider,
+        friction_pusher=message.friction,
+        support_radius=message.support_radius,
+    )
+    of_this = (message.track, message.speed) == (Path(settings.track).stem, settings.speed)
+    shift = np.reshape(message.shift if of_this else [], (-1, 2))
+    return Lesson(slider if message.pushes else None, shift)
 
 
 def request_of(query: Query) -> Predict.Request:

@@ -4,6 +4,7 @@ import math
 import sys
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
@@ -24,6 +25,7 @@ from push_mpc.loop import MOVING, Controller, Mode, Tick, here_fault, start_faul
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
 from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.lap_gate import LapGate
 from push_mpc.node.link_watch import LinkWatch
 from push_mpc.node.loop_health import LoopHealth, stop_finding
 from push_mpc.node.mode_log import ModeLog
@@ -38,6 +40,7 @@ from push_mpc.table import Tabulated
 
 FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
+LESSON_PERIOD = 0.02  # [s] between two looks for a lesson that the plant waits for
 GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
 _ACTIVE = (*MOVING, Mode.STOPPING)
 ON_REQUEST = 'stopped on request'
@@ -71,7 +74,9 @@ class MpcNode(Node):  # type: ignore[misc]
         self._command.header.frame_id = self._state.header.frame_id = 'world'
         self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
         self._preparation = Preparation(self._settings, self._controller)
-        self._model = ModelClient(self, self._settings.slider.side, self._preparation.prepare)
+        self._model = ModelClient(self, self._settings, self._preparation.prepare)
+        self._laps = LapGate(self._controller.plan.duration, self._settings.laps)
+        self._postponed: Callable[[], None] | None = None
         self._recorder = RecorderWatch(self)
         self._link = (
             None if self._lockstep else LinkWatch(self, self._settings.poses.clock_tolerance)
@@ -128,6 +133,8 @@ class MpcNode(Node):  # type: ignore[misc]
         self.create_timer(GRAPH_PERIOD, self._watch_others, clock=steady)
         watch = self._watch_lockstep if self._lockstep else self._watch
         self.create_timer(self._watchdog.period, watch, clock=steady)
+        if self._lockstep and self._settings.learn:
+            self.create_timer(LESSON_PERIOD, self._go_on, clock=steady)
 
     def _tick(self, stamp: int, exposure: float, now: float) -> None:
         """Handles a pair of poses: stamp of the exposure [ns], exposure and current time [s]."""
@@ -142,9 +149,14 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _answer(self, stamp: int, now: float, step: Callable[[], Tick]) -> None:
         """Computes and publishes a tick whose command counts from a time [s]."""
+        if self._lockstep and self._untaught and self._controller.mode in MOVING:
+            self._postponed = partial(self._answer, stamp, now, step)
+            return
+        self._postponed = None
         arrived, self._ticked = time.perf_counter(), time.monotonic()
         self._take_model()
         tick = self._computed(step, now)
+        self._laps.note(tick)
         if tick.mode != Mode.IDLE:
             self._send(tick, stamp)
         self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
@@ -152,6 +164,16 @@ class MpcNode(Node):  # type: ignore[misc]
         self._extrapolations += self._extrapolates(tick)
         self._outputs.step()
         self._controller.prepare_next()
+
+    @property
+    def _untaught(self) -> bool:
+        """Whether the last lap has not taught yet."""
+        return self._settings.learn and self._model.laps < self._laps.expected
+
+    def _go_on(self) -> None:
+        """Answers poses that waited for a lesson, when that is there."""
+        if self._postponed is not None and not self._untaught:
+            self._postponed()
 
     def _computed(self, step: Callable[[], Tick], now: float) -> Tick:
         """One tick; of one that raises, the first of a stop."""
@@ -191,7 +213,7 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _repeat(self) -> None:
         """Sends the last command again: the simulator did not receive it."""
-        if self._controller.mode != Mode.IDLE:
+        if self._controller.mode != Mode.IDLE and self._postponed is None:
             self._commands.publish(self._command)
 
     def _publish_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
@@ -289,6 +311,7 @@ class MpcNode(Node):  # type: ignore[misc]
         else:
             self._controller.arm()
         self._poses.restart()
+        self._laps.begin(self._model.laps)
 
     @property
     def _starts_here(self) -> bool:
@@ -312,8 +335,8 @@ class MpcNode(Node):  # type: ignore[misc]
         if self._controller.stop_reason or self._controller.mode == Mode.STOPPING:
             reason, resume = self._controller.stop_reason, interface.RESUME.name
             return f'stopped: {reason}; call {resume} first' if reason else _NOT_AT_REST
-        if not self._controller.model_id:
-            return f'waiting for the model: {self._model.problem}'
+        if not self._controller.model_id or self._untaught:
+            return f'waiting for the model: {self._model.problem or "the last lap still teaches"}'
         if self._settings.require_recorder and self._recorder.obstacle:
             return self._recorder.obstacle
         rivals = self._graph.warning()

@@ -15,7 +15,7 @@ from push_core.common import PushError, RunError
 from push_node.realtime import leave_realtime
 
 from push_mpc.loop import Controller, PreparedModel
-from push_mpc.plan import Plan
+from push_mpc.plan import Lesson, Plan
 from push_mpc.settings import MpcSettings
 from push_mpc.table import Table
 
@@ -32,7 +32,7 @@ class Preparation:
         self._settings, self._controller = settings, controller
         self._process: subprocess.Popen[bytes] | None = None
 
-    def prepare(self, table: Table, model_id: str) -> PreparedModel:
+    def prepare(self, table: Table, model_id: str, lesson: Lesson | None = None) -> PreparedModel:
         """See `Controller.prepare_model`; waits for the process without the interpreter lock.
 
         Raises:
@@ -40,9 +40,9 @@ class Preparation:
         """
         if self._process is None:
             self._process = _started()
-            return self._controller.prepare_model(table, model_id)
+            return self._controller.prepare_model(table, model_id, lesson)
         try:
-            result = self._asked(self._process, table, model_id)
+            result = self._asked(self._process, table, model_id, lesson)
         except (OSError, EOFError, pickle.UnpicklingError) as error:
             self._process = None
             raise RunError('the process that prepares models has ended') from error
@@ -51,11 +51,13 @@ class Preparation:
         return result
 
     def _asked(
-        self, process: 'subprocess.Popen[bytes]', table: Table, model_id: str
+        self,
+        process: 'subprocess.Popen[bytes]',
+        *model: Table | str | Lesson | None,
     ) -> PreparedModel | Exception:
         assert process.stdin is not None
         assert process.stdout is not None
-        _send(process.stdin, (self._settings, self._controller.track_plan, table, model_id))
+        _send(process.stdin, (self._settings, self._controller.track_plan, *model))
         result: PreparedModel | Exception = pickle.load(process.stdout)
         return result
 
@@ -91,10 +93,11 @@ def main() -> None:
 
 
 def _prepared(
-    settings: MpcSettings, plan: Plan, table: Table, model_id: str
+    settings: MpcSettings, plan: Plan, table: Table, model_id: str, lesson: Lesson | None
 ) -> PreparedModel | Exception:
     try:
-        return Controller(settings, settings.slider, plan).prepare_model(table, model_id)
+        controller = Controller(settings, settings.slider, plan)
+        return controller.prepare_model(table, model_id, lesson)
     except (PushError, ValueError) as error:
         return error
 

@@ -6,13 +6,11 @@ from push_mpc.plan.lesson import Lesson
 from push_mpc.plan.nominal import Plan
 from push_mpc.plan.placement import Placement
 from push_mpc.plan.planning import check_pushes, planned
-from push_mpc.plan.reference_shift import ReferenceShift
 
 __all__ = [
     'Lesson',
     'Placement',
     'Plan',
-    'ReferenceShift',
     'check_pushes',
     'consistent_plan',
     'guesses',

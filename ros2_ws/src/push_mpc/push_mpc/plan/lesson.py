@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from push_core.geometry import Array
+from push_core.geometry import Array, rotation
 from push_core.physics import Slider
 
 from push_mpc.plan.nominal import Plan
@@ -19,7 +19,8 @@ class Lesson:
 
     Attributes:
         slider: with the identified friction and support radius; None before anything is.
-        shift: (n, 2) of the reference [m] at every sample of one lap; (0, 2) for none.
+        shift: (n, 2) of the reference [m] at every sample of one lap, in the frame of the plan's
+            first pose; (0, 2) for none.
     """
 
     slider: Slider | None = None
@@ -31,5 +32,5 @@ class Lesson:
             return plan
         rows = np.arange(len(plan.state)) % len(self.shift)
         state = plan.state.copy()
-        state[:, :2] += self.shift[rows]
+        state[:, :2] += self.shift[rows] @ rotation(plan.state[0, 2]).T
         return replace(plan, state=state)

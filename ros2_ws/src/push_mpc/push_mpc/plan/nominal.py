@@ -50,6 +50,19 @@ class Plan:
         """Speed [m/s] of the object at the start."""
         return math.hypot(*np.diff(self.state[:2, :2], axis=0)[0]) / self.period
 
+    def until_end(self) -> tuple[Array, Array, Array]:
+        """Time (m,), state (m, 4), input (m, 2) of the reference, without the overrun.
+
+        The last sample is that of its end, which may lie between two samples of the plan.
+        """
+        count = math.ceil(self.duration / self.period)
+        last_state, last_input = self.at(self.duration)
+        return (
+            np.append(self.time[:count], self.duration),
+            np.vstack([self.state[:count], last_state]),
+            np.vstack([self.input[:count], last_input]),
+        )
+
     def at(self, time: float) -> tuple[Array, Array]:
         """State (4,) and input (2,) at a time [s], held constant outside the plan."""
         place = min(max(time / self.period, 0.0), len(self.state) - 1.0)

@@ -36,8 +36,8 @@ class ForceSteering:
 
     solvers: tuple[TrackingQP, ...]
 
-    def __init__(self, settings: ControllerSettings, slider: Slider, speed: float) -> None:
-        self._settings, self._speed = settings, speed
+    def __init__(self, settings: ControllerSettings, slider: Slider, _speed: float) -> None:
+        self._settings = settings
         self._motion = ContactForce(slider)
         self._space = _space(slider)
         self.mode = ContactMode.STICKING
@@ -49,27 +49,30 @@ class ForceSteering:
             settings.horizon_steps, self._space.size, relinearise=False
         )
 
-    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
+    def staged(self, model: TabulatedModel, plan: Plan, stride: int, slider: Slider) -> StagedPlan:
         """See `Steering.staged`.
 
         The derivatives are those of the slider's limit surface, the motion along the plan is the
         model's: the estimate of the model error is relative to the latter.
         """
-        forces = replace(plan, input=self._motion.of_velocity(plan.state[:, 3], plan.input))
-        rates = TravelMotion(model, self._motion.slider.tip_x).rates(plan.state, plan.input)
-        excess = rates - self._motion.rates(forces.state, forces.input)
+        motion = ContactForce(slider)
+        forces = replace(plan, input=motion.of_velocity(plan.state[:, 3], plan.input))
+        rates = TravelMotion(model, slider.tip_x).rates(plan.state, plan.input)
+        excess = rates - motion.rates(forces.state, forces.input)
         contact, mean = contact_after(plan, stride), mean_over_steps(forces.input, stride)
-        target = steady_shift(self._motion, forces)
-        stages = [
-            Stages.of(self._space, target, self._limits(contact, mean, mode)) for mode in FAMILY
-        ]
+        target, space = steady_shift(motion, forces), _space(slider)
+        limits = [_limits(self._settings, motion, contact, mean, mode) for mode in FAMILY]
+        stages = tuple(Stages.of(space, target, each) for each in limits)
         excess = mean_over_steps(excess, stride)
-        return StagedPlan(forces, self._motion, stride, contact, mean, excess, tuple(stages))
+        return StagedPlan(forces, motion, stride, contact, mean, excess, stages)
 
-    def of_slider(self, slider: Slider) -> 'ForceSteering':
-        """See `Steering.of_slider`."""
-        same = slider == self._motion.slider
-        return self if same else ForceSteering(self._settings, slider, self._speed)
+    def take(self, slider: Slider) -> None:
+        """See `Steering.take`."""
+        if slider == self._motion.slider:
+            return
+        self._motion = ContactForce(slider)
+        for solver in self.solvers:
+            solver.limit(_limited(slider))
 
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""
@@ -80,7 +83,9 @@ class ForceSteering:
     def bounded(self, staged: StagedPlan) -> StagedPlan:
         """See `Steering.bounded`."""
         stages = [
-            stages.within(self._limits(staged.contact, staged.mean_input, mode))
+            stages.within(
+                _limits(self._settings, self._motion, staged.contact, staged.mean_input, mode)
+            )
             for stages, mode in zip(staged.stages, FAMILY, strict=True)
         ]
         return replace(staged, stages=tuple(stages))
@@ -130,20 +135,27 @@ class ForceSteering:
         """
         return velocity / max(1.0, float(velocity[0]) / self._settings.normal_speed_limit)
 
-    def _limits(self, contact: Array, forces: Array, mode: ContactMode) -> tuple[Array, Array]:
-        """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
-        slider = self._motion.slider
-        nominal = np.column_stack([contact, forces @ _limited(slider).T])
-        slip = self._settings.tangential_speed_limit
-        # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
-        low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
-        high = np.tile([0.5 * slider.side, 0.0, 0.0, np.inf, 0.0], (len(nominal), 1))
-        high[:, 1] = self._motion.normal_force(contact, self._settings.normal_speed_limit)
-        if mode == ContactMode.SLIDING_LEFT:
-            low[2], high[:, 4] = 0.0, slip
-        if mode == ContactMode.SLIDING_RIGHT:
-            high[:, 3], low[4] = 0.0, -slip
-        return low - nominal, high - nominal
+
+def _limits(
+    settings: ControllerSettings,
+    motion: ContactForce,
+    contact: Array,
+    forces: Array,
+    mode: ContactMode,
+) -> tuple[Array, Array]:
+    """Lowest and highest deviations (n, 5) of p_y and of the limited inputs."""
+    slider = motion.slider
+    nominal = np.column_stack([contact, forces @ _limited(slider).T])
+    slip = settings.tangential_speed_limit
+    # p_y, f_n, f_t - mu f_n, f_t + mu f_n, slip
+    low = np.array([-0.5 * slider.side, 0.0, -np.inf, 0.0, 0.0])
+    high = np.tile([0.5 * slider.side, 0.0, 0.0, np.inf, 0.0], (len(nominal), 1))
+    high[:, 1] = motion.normal_force(contact, settings.normal_speed_limit)
+    if mode == ContactMode.SLIDING_LEFT:
+        low[2], high[:, 4] = 0.0, slip
+    if mode == ContactMode.SLIDING_RIGHT:
+        high[:, 3], low[4] = 0.0, -slip
+    return low - nominal, high - nominal
 
 
 def _weights(settings: ControllerSettings, space: InputSpace) -> QPWeights:

@@ -103,14 +103,20 @@ class Steering(Protocol):
 
     solvers: tuple[TrackingQP, ...]
 
-    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
-        """Computes what the QPs need along a plan, in steps of `stride` samples.
+    def staged(self, model: TabulatedModel, plan: Plan, stride: int, slider: Slider) -> StagedPlan:
+        """Computes what the QPs need along a plan.
 
         Does not touch the solvers, so it may run in another thread.
+
+        Args:
+            model: of the displacement.
+            plan: along which.
+            stride: samples in a step of the horizon.
+            slider: whose friction and support radius the QPs take, if they use them.
         """
 
-    def of_slider(self, slider: Slider) -> 'Steering':
-        """The same for another friction and support radius; itself if it does not use them."""
+    def take(self, slider: Slider) -> None:
+        """Uses another friction and support radius from the next `prepare` on; builds nothing."""
 
     def change(self, settings: ControllerSettings) -> None:
         """Uses other weights and speed limits; see `bounded` for plans that exist."""

@@ -62,6 +62,7 @@ class TrackingQP:
         self._size = self._states + space.size * steps
         self._matrix = self._constraints()
         self._places = self._entry_places()
+        self._limit_places = self._places_of_limits()
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
         self._entries = np.zeros((steps, space.entries))
@@ -84,6 +85,14 @@ class TrackingQP:
         self._set_cost(weights)
         self._solver.update(Px=upper_triangle(self._cost).data)
         self._relaxed.weigh(self._cost)
+
+    def limit(self, limited: Array) -> None:
+        """Changes the combinations of the inputs that are bounded, from the next `prepare` on.
+
+        Args:
+            limited: see `InputSpace`; zeros stay zeros.
+        """
+        self._matrix.data[self._limit_places] = limited[np.nonzero(self._space.limited)]
 
     def forget(self) -> None:
         """Lets the next solve depend on no earlier one."""
@@ -305,6 +314,13 @@ class TrackingQP:
         rows = NX * (step + 1) + np.concatenate([a_row, b_row])
         columns = np.hstack([NX * step + a_column, self._states + inputs * step + b_column])
         return self._data_index(rows, columns)
+
+    def _places_of_limits(self) -> Array:
+        """Index (N, entries) into the matrix data of the entries of the bounded combinations."""
+        step = np.arange(self.steps)[:, None]
+        row, column = np.nonzero(self._space.limited)
+        rows = self._states + (1 + len(self._space.limited)) * step + 1 + row
+        return self._data_index(rows, self._states + self._space.size * step + column)
 
     def _data_index(self, rows: Array, columns: Array) -> Array:
         """Index into the matrix data of entries that exist, in the shape of `rows`."""

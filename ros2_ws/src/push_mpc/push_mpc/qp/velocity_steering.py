@@ -36,7 +36,9 @@ class VelocitySteering:
             settings.horizon_steps, SPACE.size, relinearise=settings.relinearise
         )
 
-    def staged(self, model: TabulatedModel, plan: Plan, stride: int) -> StagedPlan:
+    def staged(
+        self, model: TabulatedModel, plan: Plan, stride: int, _slider: Slider
+    ) -> StagedPlan:
         """See `Steering.staged`."""
         target = steady_shift(TravelMotion(model, self._slider.tip_x), plan)
         motion = TravelMotion(model.lookup(self._settings.horizon_steps), self._slider.tip_x)
@@ -45,9 +47,8 @@ class VelocitySteering:
         excess = np.zeros_like(plan.state)
         return StagedPlan(plan, motion, stride, contact, mean, excess, (stages,))
 
-    def of_slider(self, _slider: Slider) -> 'VelocitySteering':
-        """See `Steering.of_slider`; only its model knows friction and support radius."""
-        return self
+    def take(self, _slider: Slider) -> None:
+        """See `Steering.take`; only the model knows friction and support radius."""
 
     def change(self, settings: ControllerSettings) -> None:
         """See `Steering.change`."""

@@ -26,6 +26,9 @@ class MpcSettings(ControllerSettings):
         'begin where the object lies',
         choices=('plan', 'here'),
     )
+    learn: bool = setting(
+        False, 'take from gp_server what laps have taught; in lockstep wait for it after each'
+    )
     planner: str = setting(
         'auto',
         'flat: sticking at p_y = 0; optimal: collocation, seconds; auto: flat where it exists',

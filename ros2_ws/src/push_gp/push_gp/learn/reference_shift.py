@@ -7,7 +7,7 @@ model. Source: Bristow, Tharayil and Alleyne 2006, with a zero-phase filter over
 import numpy as np
 from push_core.geometry import Array
 
-from push_mpc.plan.nominal import Plan
+from push_gp.learn.timed_reference import TimedReference
 
 GAIN = 0.6
 """Share of the last error that the next lap is shifted by."""
@@ -25,21 +25,14 @@ class ReferenceShift:
     """Learns a shift of the reference over one lap.
 
     Attributes:
-        shift: (n, 2) [m] at every sample of the lap, in the frame of the track.
+        shift: (n, 2) [m] at every sample of the lap, in the frame of the start.
     """
 
-    def __init__(self, plan: Plan, laps: int) -> None:
-        """Starts from none.
-
-        Args:
-            plan: of all laps.
-            laps: of the plan.
-        """
-        self._lap = plan.duration / laps
-        count = round(self._lap / plan.period)
-        self.shift = np.zeros((count, 2))
-        speed = float(np.hypot(*np.diff(plan.state[:2, :2], axis=0)[0])) / plan.period
-        half = max(1, round(SMOOTHED / speed / plan.period))
+    def __init__(self, reference: TimedReference) -> None:
+        """Starts from none."""
+        self._lap = reference.lap_time
+        self.shift = np.zeros((reference.samples, 2))
+        half = max(1, round(SMOOTHED / reference.speed / reference.period))
         self._window = np.hanning(2 * half + 3)[1:-1]
 
     def learn(self, times: Array, errors: Array) -> None:
@@ -47,7 +40,7 @@ class ReferenceShift:
 
         Args:
             times: (m,) of the reference [s].
-            errors: (m, 2) of the object's position at these times [m], in the frame of the track.
+            errors: (m, 2) of the object's position at these times [m], in the frame of the start.
         """
         errors, known = self._binned(times, errors)
         seen = self._smooth(known)

@@ -1,0 +1,102 @@
+"""Lets each lap of a controller in this process teach the next, as gp_server and mpc_node do."""
+
+from pathlib import Path
+
+import numpy as np
+from builtin_interfaces.msg import Time
+from push_gp.learn import LapCollector, LapLearner, Learned, Measured, MeasuredLap, TimedReference
+from push_gp.models import ModelInfo, PushModel
+from push_gp.server.conversions import lesson_message
+from push_mpc.loop import FOLLOWING, Controller, Mode, Tick
+from push_mpc.node import conversions
+from push_mpc.plan import Plan
+from push_mpc.settings import MpcSettings
+from push_msgs.msg import Lesson
+from push_sim.plant import Observation
+
+from push_bringup.in_process.tables import tabulated
+from push_bringup.setup import CellParameters
+
+
+class School:
+    """Follows a run, learns, and prepares what the next lap is driven with.
+
+    Attributes:
+        lessons: what each lap is driven with, and after a run what its last lap taught.
+        messages: the same, as gp_server announces them.
+    """
+
+    def __init__(
+        self, controller: Controller, parameters: CellParameters, model: PushModel
+    ) -> None:
+        """Follows a controller that has its first model."""
+        mpc = self._settings = parameters.mpc
+        self._controller, self._model = controller, model
+        self._learner = LapLearner(parameters.gp.slider, model.info.model_id)
+        self._collector = LapCollector(controller.track_plan.duration / mpc.laps, mpc.laps)
+        self._next: Lesson | None = None
+        self.lessons: list[Learned] = []
+        self.messages: list[Lesson] = []
+        self._announce()
+
+    @property
+    def models(self) -> list[ModelInfo]:
+        """The model of each lesson."""
+        return [(each.model or self._model).info for each in self.lessons]
+
+    def observe(self, observation: Observation, tick: Tick) -> None:
+        """Takes one tick, and learns at the end of a lap."""
+        if tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
+            return
+        lap = self._collector.add(
+            Measured(
+                tick.reference_time,
+                tick.mode == Mode.TRACKING,
+                observation.object_pose,
+                observation.tip_position,
+                self._controller.model_id,
+            )
+        )
+        if lap is not None:
+            self._learn(lap)
+
+    def use_lesson(self) -> None:
+        """Lets the controller use what the last lap taught; between two ticks."""
+        if self._next is None:
+            return
+        message, self._next = self._next, None
+        table = tabulated(self.lessons[-1].model or self._model, self._settings.slider.side)
+        lesson = conversions.lesson_of(message, self._settings)
+        self._controller.use(self._controller.prepare_model(table, message.lesson_id, lesson))
+
+    def finish(self) -> None:
+        """Learns from the last lap."""
+        lap = self._collector.finish()
+        if lap is not None:
+            self._learn(lap)
+
+    def _learn(self, lap: MeasuredLap) -> None:
+        if len(self.lessons) == 1:
+            self._learner.begin(reference_of(self._controller.plan, self._settings))
+        self._learner.learn(lap)
+        self._announce()
+        self._next = self.messages[-1]
+
+    def _announce(self) -> None:
+        known, base = self._learner.known, self._model.info.model_id
+        message = lesson_message(known, len(self.lessons), base, Time())
+        self.lessons.append(known)
+        self.messages.append(message)
+
+
+def reference_of(plan: Plan, settings: MpcSettings) -> TimedReference:
+    """What a plan asks of the object."""
+    time, state, _ = plan.until_end()
+    return TimedReference(
+        Path(settings.track).stem,
+        settings.speed,
+        settings.laps,
+        time,
+        np.ascontiguousarray(state[:, :2]),
+        float(state[0, 2]),
+    )

@@ -1,0 +1,103 @@
+"""What a run that is cut into laps teaches the next lap."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
+from push_core.physics import Slider
+from push_gp.learn import LapCollector, LapLearner, Measured, MeasuredLap, TimedReference
+from push_gp.models import SmoothCone
+from push_gp.server.conversions import learned_of, lesson_message
+
+NOMINAL, BASE, LAP_TIME = Slider(), 'a model', 20.0
+TRUTH = replace(NOMINAL, friction_pusher=0.15, support_radius=0.036)
+
+
+def reference(track: str = 'wave', laps: int = 3) -> TimedReference:
+    """A straight way, which the object is taken to follow."""
+    time = np.linspace(0.0, laps * LAP_TIME, 1 + round(100 * laps * LAP_TIME))
+    return TimedReference(track, 0.08, laps, time, np.zeros((len(time), 2)), 0.0)
+
+
+def ticks(lap: int, driven: str = BASE, slider: Slider = TRUTH) -> list[Measured]:
+    """A lap in which the smooth cone of a slider moves the object under a wavering tip."""
+    pose, tip, step = np.zeros(3), None, 8e-4
+    cone, found = SmoothCone(slider, step), []
+    for number in range(2000):
+        place = number / 2000.0
+        p_y, beta = 8e-3 * math.sin(25.0 * place), 0.5 * math.pi + 0.5 * math.cos(40.0 * place)
+        tip = slider.tip_position(pose, p_y)
+        found.append(Measured(LAP_TIME * (lap + place), True, pose.copy(), tip, driven))
+        ((dx, dy, turn),) = cone.evaluate(np.array([p_y]), np.array([beta]))[0]
+        cos, sin = math.cos(pose[2]), math.sin(pose[2])
+        pose += (cos * dx - sin * dy, sin * dx + cos * dy, turn)
+    return found
+
+
+def test_a_run_is_cut_where_the_laps_of_its_reference_end():
+    collector, laps = LapCollector(LAP_TIME, 3), []
+    for lap in range(3):
+        laps += [collector.add(each) for each in ticks(lap)[::20]]
+    taken = [each for each in laps if each is not None]
+    # the tick that ends a lap belongs to it; the last lap ends with the run
+    assert [len(each.time) for each in taken] == [101, 100]
+    last = collector.finish()
+    assert last is not None
+    assert len(last.time) == 99
+    assert collector.finish() is None
+
+
+def test_a_lap_identifies_its_plant_and_the_next_one_shifts_the_reference():
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    assert learner.known.lesson_id(BASE) == BASE
+    first = learner.learn(MeasuredLap.of(ticks(0)))
+    assert first.model is not None
+    assert not first.shift.any()
+    driven = first.lesson_id(BASE)
+    assert driven != BASE
+    second = learner.learn(MeasuredLap.of(ticks(1, driven)))
+    assert second.shift.any()
+    assert second.lesson_id(BASE) not in {BASE, driven}
+    assert second.is_of(reference())
+
+
+def test_ticks_that_another_lesson_drove_do_not_shift_the_reference():
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    learner.learn(MeasuredLap.of(ticks(0)))
+    assert not learner.learn(MeasuredLap.of(ticks(1, 'another lesson'))).shift.any()
+
+
+def test_another_track_keeps_the_model_and_forgets_the_shift():
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    first = learner.learn(MeasuredLap.of(ticks(0)))
+    known = learner.learn(MeasuredLap.of(ticks(1, first.lesson_id(BASE))))
+    learner.begin(reference())
+    assert learner.known is known
+    learner.begin(reference('another'))
+    assert learner.known.identified is known.identified
+    assert not len(learner.known.shift)
+
+
+def test_a_lesson_outlives_its_message_to_the_last_bit():
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    known = learner.learn(MeasuredLap.of(ticks(0)))
+    found = learned_of(lesson_message(known, 1, BASE, Time()), NOMINAL, known.model.distance)
+    assert found.lesson_id(BASE) == known.lesson_id(BASE)
+    assert found.identified.friction == known.identified.friction
+    again = LapLearner(NOMINAL, BASE, found)
+    again.begin(reference())
+    assert again.known is found
+
+
+@pytest.mark.parametrize('samples', [1, 30])
+def test_a_lap_of_few_pushes_teaches_nothing(samples):
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    known = learner.learn(MeasuredLap.of(ticks(0)[:samples]))
+    assert known.lesson_id(BASE) == BASE
