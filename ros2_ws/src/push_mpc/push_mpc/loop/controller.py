@@ -50,6 +50,7 @@ class Controller:
         self._seen = 0
         self._tip = self._touching = _STILL
         self._exposure = -math.inf
+        self._pose_age = 0.0
         self._reference = ReferenceClock()
         self._failures_in_a_row = 0
         self.solver_failures = 0
@@ -193,8 +194,12 @@ class Controller:
     def coast(self, now: float) -> Tick:
         """One tick at a time [s] without new poses: continues with the newest estimate.
 
-        Poses older than `pose_timeout` no longer serve; then it holds.
+        Poses older than `pose_timeout` no longer serve; then it holds. The run ends when it would
+        with poses, whose exposures are as old as the last one was.
         """
+        over = self._reference.at(now - self._pose_age) >= self.plan.duration
+        if over and self.mode in FOLLOWING:
+            self._machine.take(Event.END)
         if self.mode not in FOLLOWING or now - self._exposure > self.settings.pose_timeout:
             return self.hold(now)
         tick = self._commanded(self._follow(now), now)
@@ -217,6 +222,7 @@ class Controller:
         Returns:
             The command and the record of the tick.
         """
+        self._pose_age = now - exposure
         tick = self._step(object_pose, tip, exposure, now)
         tick.exposure, tick.now = exposure, now
         return tick
