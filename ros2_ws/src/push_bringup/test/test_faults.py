@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from push_bringup.faults.campaign import cases, summary
+from push_bringup.faults.campaign import cases, impossible, summary
 from push_bringup.faults.case import Case, Fault, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
 from push_bringup.faults.observer import Seen
@@ -85,6 +85,14 @@ def test_cases_are_those_of_the_modes_in_which_the_fault_can_happen() -> None:
     chosen = cases(['stop', 'solver_raises'], ['realtime', 'lockstep'], range(2))
     assert len(chosen) == 2 + 4
     assert len({(case.kind, case.mode, case.seed) for case in chosen}) == len(chosen)
+
+
+def test_what_needs_a_network_is_left_out_with_the_reason_where_none_can_be_made(
+    monkeypatch,
+) -> None:
+    monkeypatch.setattr('os.geteuid', lambda: 1000)
+    assert impossible(['stop', 'network_3s']) == {'network_3s': 'network namespaces need root'}
+    assert impossible(['stop']) == {}
 
 
 def test_the_summary_names_what_is_not_as_expected() -> None:

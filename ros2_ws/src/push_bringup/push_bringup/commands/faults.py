@@ -13,7 +13,7 @@ from push_node.start_ros import init_ros
 from tqdm import tqdm
 
 from push_bringup.faults import Verdict
-from push_bringup.faults.campaign import cases, run_cases, summary
+from push_bringup.faults.campaign import cases, impossible, run_cases, summary
 from push_bringup.faults.kinds import KINDS
 
 MODES = ('realtime', 'lockstep')
@@ -65,7 +65,11 @@ def work(arguments: argparse.Namespace) -> int:
         raise InputError(f'--seeds is {arguments.seeds}, must be positive')
     check_ros_environment()
     seeds = range(arguments.first_seed, arguments.first_seed + arguments.seeds)
-    chosen = cases(arguments.only, arguments.mode, seeds)
+    skipped = impossible(arguments.only)
+    for kind, why in skipped.items():
+        sys.stderr.write(f'faults: {kind} is skipped: {why}\n')
+    kinds = [kind for kind in arguments.only if kind not in skipped]
+    chosen = cases(kinds, arguments.mode, seeds)
     stop_on_signals()
     init_ros()
     try:
@@ -73,7 +77,7 @@ def work(arguments: argparse.Namespace) -> int:
             verdicts = run_cases(chosen, lambda verdict: _tell(verdict, bar.update))
     finally:
         rclpy.try_shutdown()
-    results = finite(summary(verdicts))
+    results = finite({**summary(verdicts), 'skipped': skipped})
     if arguments.html is not None:
         _write_page(arguments.html, verdicts, results)
     sys.stdout.write(json_text(results) if arguments.json else _text(verdicts, results))

@@ -20,6 +20,7 @@ from rclpy.node import Node
 from std_srvs.srv import Trigger
 
 from push_bringup.faults.case import Case
+from push_bringup.faults.link import Link
 from push_bringup.faults.observer import Observer
 from push_bringup.faults.relay import Relay, remappings
 from push_bringup.faults.sick import FAULT_FILE
@@ -38,8 +39,8 @@ TRACK, SPEED = 'circle', 0.08
 DOMAINS = 102  # that work on every system
 _PATIENCE = 60.0  # [s] for the nodes to be ready
 _SICK = {
-    'mpc_node': 'push_bringup.faults.sick_controller',
-    'gp_server': 'push_bringup.faults.sick_server',
+    'mpc_node': 'push_bringup.faults.sick.controller',
+    'gp_server': 'push_bringup.faults.sick.server',
 }
 
 
@@ -64,6 +65,8 @@ class Bed:
             relayed: whether the poses go through the relay.
         """
         self._scratch, self._namespace = folder, namespace
+        # before the first node, which takes up the addresses that there are
+        self._link = Link() if case.fault.far else None
         self._sick_file = folder / 'sick'
         os.environ[FAULT_FILE] = str(self._sick_file)
         self._parameters, self.folder = _written(case, folder, namespace)
@@ -72,7 +75,10 @@ class Bed:
         self.relay, self.observer = Relay(self.node, relayed), Observer(self.node)
         modules = {**MODULES, **{name: _SICK[name] for name in case.fault.sick}}
         arguments = {'sim_node': remappings()} if relayed else {}
-        self.processes = Processes(self._parameters, namespace, folder, modules, arguments)
+        prefixes = dict.fromkeys(case.fault.far, self._link.prefix) if self._link else {}
+        self.processes = Processes(
+            self._parameters, namespace, folder, modules, arguments, prefixes
+        )
         self._starter = Starter(self.node, self.wait)
         self._stop, self._resume = (
             service.client(self.node) for service in (interface.STOP, interface.RESUME)
@@ -88,6 +94,14 @@ class Bed:
         self.processes.stop('sim_node', 'mpc_node', 'gp_server')
         self.processes.stop('recorder')
         self.node.destroy_node()
+        if self._link is not None:
+            self._link.close()
+
+    @property
+    def link(self) -> Link:
+        """To the nodes that are far."""
+        assert self._link is not None
+        return self._link
 
     def begin(self, moment: float) -> None:
         """Starts a run and waits for a moment [s] of the reference.

@@ -15,6 +15,7 @@ from push_core.common import InputError, RunError
 from push_bringup.faults.bed import Bed
 from push_bringup.faults.case import Case, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
+from push_bringup.faults.link import obstacle
 from push_bringup.faults.verdict import HOST_GAP, fastest, problems, rest_time
 
 ATTEMPTS = 3
@@ -34,6 +35,13 @@ def cases(kinds: Sequence[str], modes: Sequence[str], seeds: Iterable[int]) -> l
         for seed in seeds
     ]
     return sorted(made, key=lambda case: (case.fault.breaks, str(case.cell)))
+
+
+def impossible(kinds: Iterable[str]) -> dict[str, str]:
+    """Those of kinds that cannot be run on this machine, and why."""
+    far = [kind for kind in kinds if KINDS[kind].far]
+    why = obstacle() if far else ''
+    return dict.fromkeys(far, why) if why else {}
 
 
 def run_cases(chosen: Sequence[Case], done: Callable[[Verdict], None]) -> list[Verdict]:

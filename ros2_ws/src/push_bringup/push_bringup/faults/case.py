@@ -29,6 +29,7 @@ class Fault:
         modes: of the cell in which it can happen.
         parameters: of the cell, by NAME or NODE.NAME.
         sick: nodes of the cell that are replaced by ones that can be made sick.
+        far: nodes of the cell that run in a network namespace of their own.
         breaks: whether the nodes cannot be used again afterwards.
         unrecorded: whether the bag cannot hold the reason.
     """
@@ -41,6 +42,7 @@ class Fault:
     modes: tuple[str, ...] = ('realtime',)
     parameters: Mapping[str, object] = field(default_factory=dict)
     sick: tuple[str, ...] = ()
+    far: tuple[str, ...] = ()
     breaks: bool = False
     unrecorded: bool = False
 
@@ -57,7 +59,12 @@ class Case:
     @property
     def cell(self) -> tuple[object, ...]:
         """What the nodes must be like; cases that are equal in this can share them."""
-        return self.mode, self.fault.sick, tuple(sorted(self.fault.parameters.items()))
+        return (
+            self.mode,
+            self.fault.sick,
+            self.fault.far,
+            tuple(sorted(self.fault.parameters.items())),
+        )
 
 
 @dataclass(frozen=True)

@@ -51,6 +51,7 @@ class Processes:
         logs: Path,
         modules: Mapping[str, str] = MODULES,
         arguments: Mapping[str, Sequence[str]] = MappingProxyType({}),
+        prefixes: Mapping[str, Sequence[str]] = MappingProxyType({}),
     ) -> None:
         """Starts nothing yet.
 
@@ -60,11 +61,12 @@ class Processes:
             logs: folder for their output.
             modules: of the nodes, by name.
             arguments: further ROS arguments of single nodes.
+            prefixes: words before the commands of single nodes, which end in running these.
         """
         self._params = params
         self._namespace = namespace
         self._logs = logs
-        self._modules, self._arguments = modules, arguments
+        self._modules, self._arguments, self._prefixes = modules, arguments, prefixes
         self._children: dict[str, Child] = {}
 
     def __enter__(self) -> 'Processes':
@@ -77,7 +79,8 @@ class Processes:
         """Starts all nodes."""
         for name, module in self._modules.items():
             arguments = (*self._ros_arguments(), *self._arguments.get(name, ()))
-            command = [sys.executable, '-m', module, '--ros-args', *arguments]
+            prefix = self._prefixes.get(name, ())
+            command = [*prefix, sys.executable, '-m', module, '--ros-args', *arguments]
             log = self._logs / f'{name}.log'
             with log.open('wb') as output:
                 # its own session: Ctrl-C reaches only the cell, which stops the nodes in order

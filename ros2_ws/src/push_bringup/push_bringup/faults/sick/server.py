@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from push_gp.server import ModelServer
 
-from push_bringup.faults.sick import ailment
+from push_bringup.faults.sick.ailment import ailment
 from push_bringup.graph import MODULES
 
 SLOW = 0.3  # [s]

@@ -11,7 +11,7 @@ from push_mpc.loop import tracker
 from push_mpc.qp import Move, Steering
 from push_mpc.settings import ControllerSettings
 
-from push_bringup.faults.sick import ailment
+from push_bringup.faults.sick.ailment import ailment
 from push_bringup.graph import MODULES
 
 SLOW = 0.02  # [s]
