@@ -209,3 +209,39 @@ def test_a_robot_with_its_lag_never_leaves_the_workspace(stretches, x, y) -> Non
             place = place + PERIOD * np.array(robot.advance(tick * PERIOD, PERIOD))
             tick += 1
             assert np.all(np.abs(place) <= [limits.workspace_x, limits.workspace_y])
+
+
+def rest_after(speed: float, next_command) -> float:
+    """Time [s] from the first command of a stop until a robot at a speed [m/s] moves by 5 mm/s."""
+    robot, step = Actuator(ACTUATORS['irb120']), PERIOD / 10
+    for tick in range(-100, 0):
+        robot.command(np.array([speed, 0.0]), tick * PERIOD)
+        robot.advance(tick * PERIOD, PERIOD)
+    sent, rest = np.array([speed, 0.0]), 0.0
+    for tick in range(100):
+        sent = next_command(sent)
+        robot.command(sent, tick * PERIOD)
+        for part in range(10):
+            robot.advance(tick * PERIOD + part * step, step)
+            if robot.velocity[0] > 0.005:
+                rest = tick * PERIOD + (part + 1) * step
+    return rest
+
+
+@pytest.mark.parametrize(
+    ('speed', 'stated'), [(0.02, 0.13), (0.05, 0.18), (0.08, 0.21), (0.15, 0.25), (0.25, 0.28)]
+)
+def test_a_stop_takes_the_time_that_the_page_on_operating_states(speed, stated) -> None:
+    robot, limits = ACTUATORS['irb120'], SafetyLimits()
+    ramp = limits.acceleration * robot.lag
+    reached = ramp * (math.exp(speed / ramp) - 1.0)
+    bound = robot.dead_time + robot.lag * math.log(reached / 0.005)
+    taken = rest_after(speed, lambda sent: slowed(sent, limits, PERIOD)[0])
+    assert bound - 0.01 < taken <= bound + 0.001
+    assert stated - 0.01 < bound <= stated
+
+
+def test_no_command_without_reversing_stops_the_fastest_robot_within_a_quarter_of_a_second() -> (
+    None
+):
+    assert rest_after(0.25, lambda _: STILL) > 0.25
