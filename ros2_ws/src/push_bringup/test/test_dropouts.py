@@ -67,8 +67,11 @@ def way_past_the_end(new_cell):
     return run
 
 
-def pushed(cell: InProcessCell, missing: int, due: Due) -> list[float]:
-    """Errors [m] of the true poses; without poses the controller goes on as the node does."""
+def pushed(cell: InProcessCell, missing: int, due: Due, *, runs_on: bool = True) -> list[float]:
+    """Errors [m] of the true poses; without poses the controller goes on as the node does.
+
+    Unless it does not run on itself: then no commands are sent.
+    """
     controller, plant = cell.controller, cell.plant
     cell.start()
     seen, cell._first = cell._first, None
@@ -87,7 +90,7 @@ def pushed(cell: InProcessCell, missing: int, due: Due) -> list[float]:
                 reference, _ = controller.plan.at(reference_time)
                 errors.append(np.hypot(*(seen.truth.object_pose[:2] - reference[:2])))
             controller.prepare_next()
-        else:
+        elif runs_on:
             plant.command(controller.coast(now).velocity, plant.time)
         seen = plant.step_until_seen()
     return errors
@@ -115,3 +118,12 @@ def test_a_pause_over_the_end_of_the_track_takes_the_object_no_further(
     way_past_the_end, missing, left
 ) -> None:
     assert abs(way_past_the_end(missing, left) - way_past_the_end(0, 0.0)) < 0.3e-3
+
+
+def test_after_the_driver_has_braked_the_reference_goes_on_from_where_the_object_lies(
+    new_cell,
+) -> None:
+    with new_cell() as cell:
+        errors = pushed(cell, 8, lambda tick, _: tick == 200, runs_on=False)
+        assert cell.controller.mode == Mode.DONE
+        assert max(errors) < 3e-3

@@ -17,6 +17,7 @@ Pose: TypeAlias = tuple[float, float, float]
 _STEP = 0.01
 _TIME_TOLERANCE = 1e-6
 _CONTACT_GAP = 5e-4
+_BRAKED = 0.015  # [s] of braking after which the object hardly moves on
 
 
 class Predictor:
@@ -48,6 +49,10 @@ class Predictor:
         """Clears the command history; the robot is at rest."""
         self._now.reset()
         self._time = self._last_sent = -math.inf
+
+    def has_braked(self, time: float) -> bool:
+        """Whether the robot's driver has braked at a time [s] for want of commands."""
+        return -math.inf < self._last_sent < time - self._timeout - _BRAKED
 
     def sent(self, velocity: Array, time: float) -> None:
         """Records a command (2,) [m/s] sent at a time [s]."""

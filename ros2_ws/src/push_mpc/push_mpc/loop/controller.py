@@ -235,7 +235,7 @@ class Controller:
             self._count_poses(now)
         self._machine.take(Event.POSE)
         patience = max(self.settings.guard.catch_up, self.settings.pose_timeout)
-        late = self._reference.is_late(exposure, patience)
+        late = self._reference.is_late(exposure, patience) or self._predictor.has_braked(now)
         if late and self.mode in FOLLOWING:
             acts_at = now + self._predictor.horizon
             self._reference.go_on(self.plan, object_pose[:2], exposure, acts_at)
