@@ -3,59 +3,16 @@
 import os
 import signal
 import subprocess
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from launch_command import LINE, Launched, is_quiet
 
 for needed in ('launch_ros.actions', 'ros2launch.api'):
     pytest.importorskip(
         needed, reason='the real launch of ROS is not installed', exc_type=ImportError
     )
-
-LAUNCH = ('ros2', 'launch', 'push_bringup', 'cell.launch.py')
-LINE = ('track:=line', 'controller:=analytical', 'mode:=lockstep')
-HANG = 120.0  # [s]; nothing but a hang takes that long
-
-
-class Launched:
-    """A launch in a process group of its own, and its output so far."""
-
-    def __init__(self, environment: dict[str, str], folder: Path, *arguments: str) -> None:
-        self.folder = folder
-        self._log = folder / f'launch_{time.monotonic_ns()}.log'
-        with self._log.open('wb') as output:
-            self.process = subprocess.Popen(
-                [*LAUNCH, *arguments],
-                cwd=folder,
-                env=environment,
-                stdout=output,
-                stderr=output,
-                start_new_session=True,
-            )
-
-    @property
-    def output(self) -> str:
-        return self._log.read_text(encoding='utf-8')
-
-    def wait_for(self, text: str) -> None:
-        deadline = time.monotonic() + HANG
-        while text not in self.output:
-            assert self.process.poll() is None, self.output
-            assert time.monotonic() < deadline, self.output
-            time.sleep(0.1)
-
-    def press_ctrl_c(self) -> None:
-        """As a terminal does: the whole group is interrupted."""
-        os.killpg(self.process.pid, signal.SIGINT)
-
-    def wait(self) -> str:
-        self.process.wait(timeout=HANG)
-        return self.output
-
-    def bags(self) -> list[Path]:
-        return sorted((self.folder / 'runs').glob('*'))
 
 
 @pytest.fixture
@@ -73,14 +30,10 @@ def launched(environment: dict[str, str], tmp_path: Path) -> Iterator[Callable[.
             each.process.wait()
 
 
-def is_quiet(output: str) -> bool:
-    return not any(word in output for word in ('has died', 'Traceback', 'exit code'))
-
-
 def test_launches_in_a_row_leave_a_finished_bag_each_and_end_quietly(launched) -> None:
     for number in range(2):
         cell = launched(*LINE, 'autostart:=true')
-        cell.wait_for('tracking -> done')
+        cell.wait_for('stopping -> done')
         cell.press_ctrl_c()
         # the impatient press it twice
         cell.press_ctrl_c()
@@ -91,7 +44,7 @@ def test_launches_in_a_row_leave_a_finished_bag_each_and_end_quietly(launched) -
 
 def test_the_bag_of_a_launch_recomputes_bit_for_bit(environment, launched) -> None:
     cell = launched(*LINE, 'autostart:=true', 'namespace:=left')
-    cell.wait_for('tracking -> done')
+    cell.wait_for('stopping -> done')
     cell.press_ctrl_c()
     cell.wait()
     command = ['ros2', 'run', 'push_bag', 'replay', str(cell.bags()[0]), '--recompute']

@@ -22,6 +22,8 @@ PERIOD = 10_000_000  # [ns]
 LARGEST_DEVIATION = 0.05  # [m]
 TOLERANCE = 1e-6  # [m/s]
 FOLLOWING = (ControllerState.TRACKING, ControllerState.RECONTACT)
+# the nodes wait in lockstep until each message is here
+DEEP = QoSProfile(depth=5000)
 RUNNING = (
     *FOLLOWING,
     ControllerState.ARMED,
@@ -30,8 +32,8 @@ RUNNING = (
 )
 
 
-Tick = tuple[int, int]
-"""Number and stamp [ns] of a tick."""
+Tick = tuple[int, int, float]
+"""Number, stamp [ns] and duration [ms] of a tick; the first two repeat where nodes begin anew."""
 
 
 @dataclass
@@ -39,18 +41,26 @@ class SeenStart:
     """One start as its states told it.
 
     Attributes:
-        ticks: up to the first at rest.
+        ticks: in which it ran and answered a pose.
+        rest: the first tick at rest; None without one.
         outcome: DONE, STOPPED or FAULT; None while it runs, or if its controller ended first.
         reason: of the stop.
-        deviation: largest distance [m] of the object from the plan in a tick that follows it.
+        deviation: largest distance [m] of the object from the plan in a tick that follows it,
+            after the reference has begun; None without such a tick.
         last: newest state.
     """
 
     ticks: set[Tick] = field(default_factory=set)
+    rest: Tick | None = None
     outcome: int | None = None
     reason: str = ''
-    deviation: float = 0.0
+    deviation: float | None = None
     last: ControllerState | None = None
+
+    @property
+    def all_ticks(self) -> set[Tick]:
+        """Those in which it ran, and the first at rest."""
+        return self.ticks if self.rest is None else {*self.ticks, self.rest}
 
 
 class Witness:
@@ -74,13 +84,12 @@ class Witness:
         self._jumps: list[tuple[int, float]] = []
         self._plan: NominalTrajectory | None = None
         for topic, heard in (
-            (interface.CONTROLLER_STATE, self._on_state),
             (interface.PUSHER_VELOCITY_CMD, self._on_command),
+            (interface.CONTROLLER_STATE, self._on_state),
             (interface.GROUND_TRUTH, self._on_truth),
             (interface.PERTURBATION, self._on_perturbation),
         ):
-            # the nodes wait in lockstep until each message is here
-            topic.subscription(node, heard, qos=QoSProfile(depth=5000))
+            topic.subscription(node, heard, qos=DEEP)
         interface.NOMINAL_TRAJECTORY.subscription(node, self._on_plan)
 
     def jumps(self) -> list[str]:
@@ -125,13 +134,16 @@ class Witness:
         self._note(self.starts[-1], state)
 
     def _note(self, start: SeenStart, state: ControllerState) -> None:
-        start.ticks.add(_tick_of(state))
         start.last = state
         if state.mode not in RUNNING:
+            start.rest = _tick_of(state)
             start.outcome, start.reason = int(state.mode), state.stop_reason
+        elif state.tick_ms > 0.0:
+            start.ticks.add(_tick_of(state))
         if state.mode in FOLLOWING and self._plan is not None:
             away = self._deviation(state)
-            start.deviation = max(start.deviation, away)
+            if state.reference_time > 0.0:
+                start.deviation = max(start.deviation or 0.0, away)
             if away > LARGEST_DEVIATION:
                 self.faults.append(
                     f'start {len(self.starts)} follows the plan {1e3 * away:.0f} mm away from it '
@@ -176,7 +188,7 @@ def compared(bags: list[Path], witness: Witness) -> Iterator[str]:
         except InputError as error:
             yield f'{bag.name}: {error}'
             continue
-        yield from (f'{bag.name}: {fault}' for fault in _of_bag(recorded, series, witness.starts))
+        yield from (f'{bag.name}: {fault}' for fault in of_bag(recorded, series, witness.starts))
 
 
 def _ticks_in(bag: Path) -> set[Tick]:
@@ -186,16 +198,21 @@ def _ticks_in(bag: Path) -> set[Tick]:
     return {_tick_of(record.message()) for record in records}
 
 
-def _of_bag(
-    recorded: set[Tick], series: list[RunSeries], starts: list[SeenStart]
-) -> Iterator[str]:
+def of_bag(recorded: set[Tick], series: list[RunSeries], starts: list[SeenStart]) -> Iterator[str]:
+    """What the starts of one bag tell otherwise than the witness.
+
+    Args:
+        recorded: all ticks in the bag.
+        series: starts in the bag.
+        starts: that were seen.
+    """
     scored = [_running_ticks(run) for run in series]
     for number, start in enumerate(starts, 1):
         found = [run for run, ticks in zip(series, scored, strict=True) if ticks & start.ticks]
         if len(found) != bool(recorded & start.ticks):
             yield f'start {number} is scored {len(found)} times'
-        elif start.ticks <= recorded:
-            faults = _score_faults(score_series(found[0]), start)
+        elif found and start.all_ticks <= recorded:
+            faults = score_faults(score_series(found[0]), start)
             yield from (f'start {number} {fault}' for fault in faults)
     seen = set().union(*(start.ticks for start in starts))
     if any(ticks and not ticks & seen for ticks in scored):
@@ -203,17 +220,20 @@ def _of_bag(
 
 
 def _running_ticks(run: RunSeries) -> set[Tick]:
-    """The ticks of a start before its end."""
-    running = np.isin(run.state('mode'), RUNNING)
+    """The ticks in which a start ran and answered a pose."""
+    duration = run.state('tick_ms')
+    running = np.isin(run.state('mode'), RUNNING) & (duration > 0.0)
     ticks = run.state('tick')[running].astype(np.int64)
-    return {*zip(ticks.tolist(), run.states.stamp[running].tolist(), strict=True)}
+    stamps = run.states.stamp[running]
+    return {*zip(ticks.tolist(), stamps.tolist(), duration[running].tolist(), strict=True)}
 
 
 def _tick_of(state: ControllerState) -> Tick:
-    return int(state.tick), to_nanoseconds(state.header.stamp)
+    return int(state.tick), to_nanoseconds(state.header.stamp), float(state.tick_ms)
 
 
-def _score_faults(score: dict[str, Any], start: SeenStart) -> Iterator[str]:
+def score_faults(score: dict[str, Any], start: SeenStart) -> Iterator[str]:
+    """What the score of a start tells otherwise than the witness."""
     if start.outcome == ControllerState.STOPPED and score['stop_reason'] != start.reason:
         yield f'stopped: {start.reason}, but the score says {score["stop_reason"]}'
     last = start.last
@@ -221,6 +241,9 @@ def _score_faults(score: dict[str, Any], start: SeenStart) -> Iterator[str]:
     done = start.outcome == ControllerState.DONE
     if bool(score['completed']) != done and not (done and abs(last.gap) > 1e-3):
         yield f'has outcome {start.outcome}, but the score says completed {score["completed"]}'
-    largest = score['tracking_error_mm']['max'] or 0.0
-    if abs(largest - 1e3 * start.deviation) > 0.5:
-        yield f'was {1e3 * start.deviation:.2f} mm away, but the score says {largest:.2f} mm'
+    away, largest = start.deviation, score['tracking_error_mm']['max']
+    if away is None or largest is None:
+        if away is not largest:
+            yield f'was {away} m away, but the score says {largest} mm'
+    elif abs(largest - 1e3 * away) > 0.5:
+        yield f'was {1e3 * away:.2f} mm away, but the score says {largest:.2f} mm'
