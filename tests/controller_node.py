@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 import rclpy
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from node_tests import own_domain
 from push_core.physics.motion_cone import MotionCone
@@ -18,6 +18,7 @@ from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
 from push_msgs.srv import Predict
 from push_node import qos
 from push_node.ask import ask
+from push_node.diagnostics import UNPUBLISHED
 from push_node.spin import Spinner
 from push_node.stamps import to_nanoseconds, to_stamp
 from rcl_interfaces.srv import SetParametersAtomically
@@ -40,7 +41,7 @@ class Cell:
         self._noise = random.Random(0)
         self.spoil: Callable[[PoseStamped], None] = lambda message: None
         self.spoil_tip: Callable[[PoseStamped], None] = lambda message: None
-        self.model_id = self.recorder_fault = ''
+        self.model_id = self.recorder_fault = self.unpublished = ''
         self.states: list[ControllerState] = []
         self.commands: list[TwistStamped] = []
         self.plans: list[NominalTrajectory] = []
@@ -109,6 +110,7 @@ class Cell:
     def _report(self) -> None:
         if self.recording:
             status = DiagnosticStatus(level=DiagnosticStatus.OK, name='/recorder: recording')
+            status.values = [KeyValue(key=UNPUBLISHED, value=self.unpublished)]
             if self.recorder_fault:
                 status.level, status.message = DiagnosticStatus.ERROR, self.recorder_fault
             self._health.publish(DiagnosticArray(status=[status]))

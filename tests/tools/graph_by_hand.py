@@ -74,6 +74,12 @@ class GraphByHand:
         process.send_signal(with_signal)
         return process.wait(timeout=HANG)
 
+    def catches(self, name: str, number: int) -> bool:
+        """Whether a node has come so far that it catches a signal."""
+        status = Path(f'/proc/{self.processes[name].pid}/status').read_text(encoding='ascii')
+        caught = int(next(line for line in status.splitlines() if 'SigCgt' in line).split()[1], 16)
+        return bool(caught >> (number - 1) & 1)
+
     def close(self) -> None:
         """Ends everything."""
         for name in [*self.processes]:

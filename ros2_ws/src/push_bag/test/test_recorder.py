@@ -15,6 +15,7 @@ from push_bag.record.recorder_settings import RecorderSettings
 from push_bag.repair.recover import recover
 from push_core.common.errors import InputError
 from push_node import interface
+from push_node.diagnostics import OK, UNPUBLISHED, WARN
 from push_node.interface import TOPICS
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -213,6 +214,27 @@ def test_a_publisher_that_offers_a_weaker_qos_than_the_first_is_recorded(cell, s
         return texts == {b'one!', b'two!'}
 
     wait_until(both_are_there)
+
+
+def test_it_tells_which_publishers_are_gone_until_others_are_heard(cell, start, tmp_path):
+    told = []
+
+    def keep(array):
+        values = {each.key: each.value for each in array.status[0].values}
+        told.append((array.status[0].level, values.get(UNPUBLISHED)))
+
+    def tells(*status):
+        rclpy.spin_once(cell, timeout_sec=0.1)
+        return told[-1:] == [status]
+
+    interface.DIAGNOSTICS.subscription(cell, keep)
+    start(f'folder:={tmp_path / "run"}')
+    wait_until(lambda: tells(OK, ''))
+    pose = CORE[0]
+    cell.destroy_publisher(cell.outlets.pop(pose.name))
+    wait_until(lambda: tells(WARN, f'/{pose.name}'))
+    cell.outlets[pose.name] = pose.publisher(cell)
+    wait_until(lambda: tells(OK, ''))
 
 
 def test_a_killed_recording_is_recovered_without_a_hole(cell, start, tmp_path):

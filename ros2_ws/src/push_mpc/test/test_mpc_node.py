@@ -181,6 +181,19 @@ def test_it_stops_when_the_recorder_falls_silent(cell, started) -> None:
     cell.recorder_fault = ''
 
 
+def test_it_starts_only_when_the_recorder_hears_the_newest_nodes(cell, started) -> None:
+    started(LINE)
+    cell.begin()
+    cell.unpublished = '/object_pose'
+    assert not cell.happens(lambda: cell.mode() == ControllerState.STOPPED, 1.0)
+    cell.call('stop')
+    cell.call_until('resume', lambda answer: answer.success)
+    reason = 'waiting for the recorder: it hears no publisher of /object_pose'
+    cell.call_until('start', lambda answer: answer.message == reason)
+    cell.unpublished = ''
+    cell.call_until('start', lambda answer: answer.success)
+
+
 def test_it_stops_when_the_recorder_reports_a_failure(cell, started) -> None:
     started(LINE)
     cell.begin()

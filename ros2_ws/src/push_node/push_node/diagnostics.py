@@ -11,6 +11,8 @@ from push_node import interface
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 Finding: TypeAlias = tuple[bytes, str]
 """Level and message."""
+UNPUBLISHED = 'unpublished'
+"""Key in the recorder's status: topics that it recorded and that have no publisher now."""
 
 
 def worst(findings: Iterable[Finding], otherwise: str) -> Finding:

@@ -28,3 +28,8 @@ EVENT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 # as tf2_ros has it
 TF = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)
 SCENE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+def is_latched(profile: QoSProfile) -> bool:
+    """Whether a late subscriber still gets what was published before."""
+    return bool(profile.durability == DurabilityPolicy.TRANSIENT_LOCAL)

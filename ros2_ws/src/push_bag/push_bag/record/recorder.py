@@ -5,10 +5,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from push_core.common import InputError, RunError, flatten
-from push_node.diagnostics import ERROR, WARN, Reporter, worst
+from push_node.diagnostics import ERROR, UNPUBLISHED, WARN, Reporter, worst
 from push_node.graph import full_name
 from push_node.interface import TOPICS
 from push_node.parameters import declared
+from push_node.qos import is_latched
 from push_node.spin import request_stop, run_node
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
@@ -48,7 +49,9 @@ class Recorder(Node):  # type: ignore[misc]
         settings = declared(self, RecorderSettings())
         offers = {self.resolve_topic_name(topic.name): topic.qos for topic in TOPICS}
         others = {full_name(self, name) for name in split_list(settings.topics)}
-        self._core = {self.resolve_topic_name(topic.name) for topic in TOPICS if topic.core}
+        core = {self.resolve_topic_name(topic.name): topic for topic in TOPICS if topic.core}
+        self._core = core.keys()
+        self._passing = {name for name, topic in core.items() if not is_latched(topic.qos)}
         self._writer = open_bag(settings)
         self._recording = Recording(self, self._writer, {*offers, *others}, offers)
         self._inputs = self._unattached_inputs(settings)
@@ -125,13 +128,16 @@ class Recorder(Node):  # type: ignore[misc]
             return
         missing = ', '.join(sorted(self._missing()))
         awaited = ', '.join(sorted(self._awaited()))
+        gone = ', '.join(sorted(self._passing & self._recording.unpublished()))
         lost = sum(seen.lost for seen in self._recording.traffic.values())
         findings = [
             (ERROR, f'no publisher of {missing}' if missing else ''),
             (ERROR, f'parameters of {awaited} not yet read' if awaited else ''),
+            (WARN, f'no publisher of {gone} any more' if gone else ''),
             (WARN, f'{lost} messages lost' if lost >= self._lost_warn else ''),
         ]
-        self._reporter.report(*worst(findings, 'recording'), self._counts())
+        values = {UNPUBLISHED: gone, **self._counts()}
+        self._reporter.report(*worst(findings, 'recording'), values)
 
     def _missing(self) -> set[str]:
         return self._core - self._recording.traffic.keys()

@@ -112,6 +112,15 @@ class Recording:
                 self._writer.write(topic, *taken)
                 seen.add(taken.sequence, taken.received_ns)
 
+    def unpublished(self) -> set[str]:
+        """Recorded topics of which no publisher is known now.
+
+        Of one that begins anew all is lost until it is discovered, except on latched topics.
+        """
+        return {
+            topic for topic in self._subscriptions if not self._listener.count_publishers(topic)
+        }
+
     def flush(self) -> None:
         """Ends the current chunk, and updates the losses that the middleware reports.
 

@@ -4,7 +4,7 @@ import time
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from push_node import interface
-from push_node.diagnostics import status_name
+from push_node.diagnostics import UNPUBLISHED, status_name
 from rclpy.node import Node
 
 FRESH = 2.0  # [s]; the recorder reports twice a second
@@ -18,7 +18,7 @@ class RecorderWatch:
         namespace = node.get_namespace().rstrip('/')
         self._name = status_name(f'{namespace}/recorder', 'recording')
         self._last_good = -FRESH
-        self._message = ''
+        self._message = self._unpublished = ''
         self._quiet_since: float | None = None
         interface.DIAGNOSTICS.subscription(node, self._on_diagnostics)
 
@@ -30,8 +30,11 @@ class RecorderWatch:
     @property
     def obstacle(self) -> str:
         """What the start waits for, with the recorder's own reason; empty while it records."""
-        reason = f': {self._message}' if self._message else ''
-        return '' if self.is_recording else f'waiting for the recorder{reason}'
+        unheard = f'it hears no publisher of {self._unpublished}' if self._unpublished else ''
+        reason = self._message or unheard
+        if self.is_recording and not unheard:
+            return ''
+        return f'waiting for the recorder{": " if reason else ""}{reason}'
 
     def failure(self) -> str:
         """Why nothing is recorded, for _GRACE now; empty while it is. Call it periodically."""
@@ -54,3 +57,5 @@ class RecorderWatch:
                 good = status.level != DiagnosticStatus.ERROR
                 self._last_good = time.monotonic() if good else -FRESH
                 self._message = '' if good else status.message
+                values = {each.key: each.value for each in status.values}
+                self._unpublished = values.get(UNPUBLISHED, '')
