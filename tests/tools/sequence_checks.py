@@ -107,7 +107,7 @@ class Witness:
     @property
     def outcome(self) -> int | None:
         """Of the newest start; None while it runs."""
-        return self.starts[-1].outcome
+        return self.starts[-1].outcome if self.starts else None
 
     def last_state(self) -> str:
         """Mode, reference time and reason of the newest state of a start."""
