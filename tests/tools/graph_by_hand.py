@@ -4,7 +4,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -55,13 +55,13 @@ class GraphByHand:
         deep = QoSProfile(depth=5000)
         interface.CONTROLLER_STATE.subscription(self.node, self.states.append, qos=deep)
 
-    def start(self, name: str, *parameters: str) -> None:
-        """Starts a node with NAME:=VALUE parameters."""
+    def start(self, name: str, *parameters: str, remapped: Sequence[str] = ()) -> None:
+        """Starts a node with NAME:=VALUE parameters and with ROS arguments."""
         options = [word for parameter in parameters for word in ('-p', parameter)]
         log = (self._folder / f'{name}.log').open('a', encoding='utf-8')
         with log:
             self.processes[name] = subprocess.Popen(
-                [sys.executable, '-m', MODULES[name], '--ros-args', *options],
+                [sys.executable, '-m', MODULES[name], '--ros-args', *options, *remapped],
                 env=self._environment,
                 cwd=self._folder,
                 stderr=log,

@@ -69,7 +69,7 @@ def cases_of_arguments() -> list[Case]:
 def _case(name: str, value: str) -> Case:
     given = dict(word.split(':=') for word in (*LINE, AUTOSTART))
     # a model is that of the Gaussian process
-    given |= {'controller': 'gp'} if name == 'model' else {}
+    given |= {'model': {'controller': 'gp'}, 'laps': {'track': 'circle'}}.get(name, {})
     given[name] = value
     until = DONE if name in WHOLE else 'as a table' if value == 'false' else '-> tracking'
     return Case(tuple(f'{key}:={text}' for key, text in given.items()), until)

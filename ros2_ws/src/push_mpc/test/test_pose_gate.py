@@ -76,7 +76,7 @@ def test_each_setting_decides_what_is_accepted(gate, setting, frame: str, age: f
     y=st.floats(-0.7, 0.7),
     yaw=st.floats(-math.pi, math.pi),
     tilt=st.floats(0.0, 9.0),
-    age=st.floats(-0.005, 0.15),
+    age=st.floats(-0.005, 0.06),
     frame=st.sampled_from(['world', '']),
 )
 def test_a_pose_on_the_table_is_accepted(x, y, yaw, tilt, age, frame) -> None:
@@ -102,7 +102,7 @@ def test_what_is_accepted_is_finite_upright_and_near(position, quaternion, age) 
         assert np.isfinite([*position, *quaternion]).all()
         assert max(abs(position[0]), abs(position[1])) <= 0.8
         assert abs(math.hypot(*quaternion) - 1.0) <= 0.01
-        assert -0.005 <= age <= 0.15
+        assert -0.005 <= age <= 0.06
 
 
 START = np.array([0.1, 0.0, 0.0, 0.0])

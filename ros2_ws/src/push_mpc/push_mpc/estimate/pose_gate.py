@@ -114,7 +114,10 @@ class PoseGate:
                 'this node runs in real time'
             )
         if age > settings.max_age:
-            return 'old', f'its stamp is {age:.3g} s old; are the clocks synchronised?'
+            return 'old', (
+                f'its stamp is {age:.3g} s old; are the clocks synchronised? '
+                f'(poses.max_age is {settings.max_age:.3g} s)'
+            )
         if age < -settings.clock_tolerance:
             return (
                 'future',

@@ -45,6 +45,11 @@ GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
 _ACTIVE = (*MOVING, Mode.STOPPING)
 ON_REQUEST = 'stopped on request'
 _LATE = 1.5  # periods without a tick, from which one without poses takes its place
+_IGNORED = 25  # repetitions of a pose, each 0.2 s after the last, that no command has ended
+_NOT_TAKEN = (
+    'the plant repeats its pose and takes no command for it; '
+    'commands carry the stamp of the pose: does something change the stamps?'
+)
 _NOT_AT_REST = 'the tip is not at rest yet'
 
 
@@ -66,7 +71,7 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         self._graph = GraphWatch(self)
         self._mode_log = ModeLog()
-        self._tick_count = self._extrapolations = 0
+        self._tick_count = self._extrapolations = self._repeats = 0
         self._ticked = -math.inf
         self._table: Tabulated | None = None
         self._scheduling: Scheduling | None = None
@@ -149,6 +154,7 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _answer(self, stamp: int, now: float, step: Callable[[], Tick]) -> None:
         """Computes and publishes a tick whose command counts from a time [s]."""
+        self._repeats = 0
         if self._lockstep and self._untaught and self._controller.mode in MOVING:
             self._postponed = partial(self._answer, stamp, now, step)
             return
@@ -213,6 +219,9 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _repeat(self) -> None:
         """Sends the last command again: the simulator did not receive it."""
+        self._repeats += 1
+        if self._repeats > _IGNORED and self._controller.mode in MOVING:
+            self._halt(_NOT_TAKEN)
         if self._controller.mode != Mode.IDLE and self._postponed is None:
             self._commands.publish(self._command)
 

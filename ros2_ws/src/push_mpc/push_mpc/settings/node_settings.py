@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from push_core.common import RealtimeSettings, nested, setting, validate
+from push_core.common import RealtimeSettings, nested, replaced, setting, validate
 from push_core.physics import ACTUATORS, Slider
 
 from push_mpc.settings.controller_settings import ControllerSettings
@@ -73,8 +73,8 @@ def is_changeable(name: str) -> bool:
     return name.startswith(_CHANGEABLE)
 
 
-_POSE_TIMEOUTS = {'webcam': 0.2}
-"""Profile, to its `pose_timeout` [s]: that of a slow camera bears the loss of two pictures."""
+_SLOW_CAMERAS = {'webcam': {'pose_timeout': 0.2, 'poses.max_age': 0.1}}
+"""Profile, to what a slow camera needs: its `pose_timeout` [s] bears the loss of two pictures."""
 
 
 def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
@@ -84,6 +84,5 @@ def mpc_settings(profile: str, preset: str = 'tuned') -> MpcSettings:
         profile=profile,
         preset=preset,
         actuator=ACTUATORS.get(profile, MpcSettings().actuator),
-        pose_timeout=_POSE_TIMEOUTS.get(profile, MpcSettings().pose_timeout),
     )
-    return with_preset(robot, preset)
+    return with_preset(replaced(robot, _SLOW_CAMERAS.get(profile, {})), preset)

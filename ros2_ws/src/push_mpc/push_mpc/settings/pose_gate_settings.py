@@ -11,7 +11,7 @@ class PoseGateSettings:
 
     frame: str = setting('world', 'frame of the poses; an empty frame_id counts as this one')
     max_age: float = setting(
-        0.15, 'age of a stamp, by the clock of this node, that is accepted', unit='s',
+        0.06, 'age of a stamp, by the clock of this node, that is accepted', unit='s',
         low=0.01, high=10.0,
     )  # fmt: skip
     clock_tolerance: float = setting(
