@@ -1,5 +1,6 @@
 """A run that learns: the nodes over DDS do what one process does, and it can be computed again."""
 
+import json
 from collections.abc import Callable
 
 import numpy as np
@@ -29,6 +30,11 @@ def test_lockstep_learns_as_one_process_does_and_is_computed_again_bit_for_bit(
     assert len(models) == 2
     assert models == same_models
     np.testing.assert_array_equal(commands, same_commands)
+    score = json.loads((runs[0].folder / 'score.json').read_text())
+    first, second = score['per_lap']
+    assert first['identified'] is None
+    assert 0.25 < second['identified']['friction'] < 0.6
+    assert second['truth_mean_mm'] < first['truth_mean_mm']
     for run in runs:
         again = recomputed(run.folder, Changes())
         assert (again.differs.sum(), again.skipped) == (0, 0)

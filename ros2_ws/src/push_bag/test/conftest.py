@@ -12,7 +12,7 @@ from push_bag.file.bag_writer import BagWriter
 from push_bag.file.message_types import message_class
 from push_bag.file.qos_text import qos_text
 from push_msgs.msg import ControllerState
-from push_node.interface import TOPICS
+from push_node.interface import LESSON, TOPICS
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
@@ -62,6 +62,7 @@ class Synthetic:
     perturbed_at: float | None = None
     predicted: object = lambda pose: pose  # of the pose that comes
     stop_reason: str = ''  # that the controller states at the end
+    lessons: tuple = ()  # reference time from which it drives, pushes, friction, shift [m]
     end_reason: str = ''  # that the cell states
     facts: dict = field(default_factory=dict)
 
@@ -95,6 +96,8 @@ class Recorder:
             if topic.name == TRUTH and synthetic.truth is None:
                 continue
             self.bag.add_topic(f'/{topic.name}', topic.type_name, qos_text(topic.qos))
+        if synthetic.lessons:
+            self.bag.add_topic(f'/{LESSON.name}', LESSON.type_name, qos_text(LESSON.qos))
 
     def message(self, name, tick):
         message = message_class(CORE[name].type_name)()
@@ -125,6 +128,10 @@ class Recorder:
     def record_start(self):
         self.write('nominal_trajectory', 0, self.reference())
         self.write('model_info', 0, self.model())
+        for number in range(len(self.synthetic.lessons)):
+            self.bag.write(
+                f'/{LESSON.name}', serialize_message(self.lesson(number)), WALL_0, WALL_0, 0
+            )
         for tick in range(self.synthetic.ticks):
             self.record_tick(tick)
 
@@ -174,6 +181,8 @@ class Recorder:
         state = self.message('controller_state', tick)
         state.tick, state.mode = tick + self.counted, self.synthetic.mode(tick)
         state.reference_time = time
+        driven = [n for n, lesson in enumerate(self.synthetic.lessons) if time >= lesson[0]]
+        state.model_id = f'lesson {driven[-1]}' if driven else ''
         state.input = state.nominal_input = [0.08, 0.0]
         then = min(max(time + LEAD, 0.0), self.synthetic.duration)
         planned = self.synthetic.path(then)
@@ -185,6 +194,14 @@ class Recorder:
         if tick == self.synthetic.ticks - 1:
             state.stop_reason = self.synthetic.stop_reason
         return state
+
+    def lesson(self, number):
+        _, pushes, friction, shift = self.synthetic.lessons[number]
+        lesson = LESSON.message_class(lesson_id=f'lesson {number}', pushes=pushes)
+        lesson.friction, lesson.support_radius = friction, 0.03
+        lesson.covariance = [0.01, 0.0, 0.0, 0.0004]
+        lesson.shift = [shift] * (2 * self.synthetic.reference_ticks // self.synthetic.laps)
+        return lesson
 
     def horizon(self, tick, time):
         horizon = self.message('horizon', tick)

@@ -1,6 +1,7 @@
 """The report is one file that loads nothing else and shows the score."""
 
 import json
+import math
 import re
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 from plotly.offline import get_plotlyjs_version
 from push_bag.commands.score import main
 from push_bag.report.animation import animation_data
+from push_bag.report.learning_figure import MAGNIFIED, lap_figures, shift_figure
 from push_bag.report.report import REPORT_FILE, report_html, write_results
 from push_bag.report.reported_run import reported_runs
 from push_bag.report.timing_figure import timing_figures
@@ -92,6 +94,26 @@ def test_perturbations_and_contact_losses_are_marked(record, perfect):
     for name in ('no contact', 'perturbation'):
         assert f'"name":"{name}"' in page
     assert '"name":"no contact"' not in report_html([(unmarked, score_series(unmarked))])
+
+
+def test_errors_of_laps_what_was_identified_and_the_shift_are_drawn(record):
+    lessons = ((-9.0, 0, 0.3, 0.0), (0.8, 200, 0.2, 1e-3))
+    run = read_run(record(laps=2, lessons=lessons))
+    scored = [(run, score_series(run))]
+    (reported,) = reported_runs(scored)
+    errors, friction, radius = (figure.data[0] for figure in lap_figures([reported]))
+    assert list(errors.x) == [1, 2]
+    assert (list(friction.x), list(friction.y)) == ([2], [0.2])
+    assert radius.error_y.array[0] == pytest.approx(1.2)
+    reference, shifted = shift_figure(reported).data
+    moved = np.hypot(shifted.x - reference.x, shifted.y - reference.y)
+    assert np.allclose(moved, MAGNIFIED * 1e3 * math.hypot(1e-3, 1e-3), rtol=1e-3)
+    assert 'Lap after lap' in report_html(scored)
+
+
+def test_a_run_of_one_lap_has_no_figures_of_laps(perfect):
+    run = read_run(perfect)
+    assert lap_figures(reported_runs([(run, score_series(run))])) == []
 
 
 def test_several_runs_share_one_page(record, perfect):

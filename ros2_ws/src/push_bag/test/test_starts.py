@@ -171,6 +171,28 @@ def test_each_lap_has_its_errors(record):
     assert 'each lap                mean 1.00  3.00  mm' in score_table(score)
 
 
+def test_each_lap_has_what_was_identified_when_it_ended(record):
+    lessons = ((-9.0, 0, 0.3, 0.0), (0.8, 200, 0.2, 0.0), (1.3, 300, 0.4, 1e-3))
+    score = score_run(record(laps=3, lessons=lessons))
+    first, second, third = (lap['identified'] for lap in score['per_lap'])
+    assert first is None
+    assert second == pytest.approx(
+        {
+            'friction': 0.2,
+            'friction_std': 0.02,
+            'support_radius_mm': 30.0,
+            'support_radius_std_mm': 0.6,
+            'pushes': 200,
+        }
+    )
+    assert (third['friction'], third['pushes']) == (0.4, 300)
+    text = score_table(score)
+    assert (
+        'identified              friction 0.400 +- 0.040, support radius 30.00 +- 0.60 mm' in text
+    )
+    assert '3 laps, gp, learning' in text
+
+
 def test_a_lap_that_was_not_begun_is_not_listed(record):
     (lap,) = score_run(record(modes=stopping, laps=2))['per_lap']
     assert lap == {'mean_mm': pytest.approx(0.0), 'max_mm': pytest.approx(0.0)} | {

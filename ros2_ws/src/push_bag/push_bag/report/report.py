@@ -13,6 +13,8 @@ from push_report.page import page, panels, section
 from push_bag.report.animation import animation_data, animation_figure
 from push_bag.report.lap_figure import TEXT as LAP_TEXT
 from push_bag.report.lap_figure import lap_figure
+from push_bag.report.learning_figure import TEXT as LEARNING_TEXT
+from push_bag.report.learning_figure import lap_figures, shift_figure
 from push_bag.report.reported_run import ReportedRun, Scored, reported_runs, title
 from push_bag.report.time_figure import TEXT as TIME_TEXT
 from push_bag.report.time_figure import time_figure
@@ -63,6 +65,7 @@ def report_html(scored: Sequence[Scored]) -> str:
     runs = reported_runs(scored)
     sections = [
         section('The lap', deferred(lap_figure(runs), 'lap'), LAP_TEXT if len(runs) == 1 else ''),
+        *_learning(runs),
         section('In motion', CONTROLS + deferred(animation_figure(runs), 'animation')),
         section('Over time', deferred(time_figure(runs), 'time'), TIME_TEXT),
         section('Timing', panels(timing_figures(runs), 'timing')),
@@ -73,6 +76,16 @@ def report_html(scored: Sequence[Scored]) -> str:
     head = _head_of_one(runs[0]) if len(runs) == 1 else _head_of_several(runs)
     page_title = title(runs[0].score) if len(runs) == 1 else f'{len(runs)} runs'
     return page(page_title, sections, head, _script(runs))
+
+
+def _learning(runs: Sequence[ReportedRun]) -> list[str]:
+    """What changed from lap to lap; nothing where no run has several laps."""
+    figures = lap_figures(runs)
+    if not figures:
+        return []
+    shift = shift_figure(runs[0]) if len(runs) == 1 else None
+    shown = panels(figures, 'laps') + (deferred(shift, 'shift') if shift else '')
+    return [section('Lap after lap', shown, LEARNING_TEXT)]
 
 
 def _script(runs: Sequence[ReportedRun]) -> str:

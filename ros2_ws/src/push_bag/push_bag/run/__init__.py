@@ -6,6 +6,7 @@ from push_bag.run.recorded_ticks import ByStamp, RecordedRun, RecordedTick
 from push_bag.run.run_reader import read_run, read_starts
 from push_bag.run.series import (
     PAIRED,
+    DrivenLesson,
     Floats,
     Nanoseconds,
     PerturbationEvent,
@@ -17,6 +18,7 @@ from push_bag.run.series import (
 __all__ = [
     'PAIRED',
     'ByStamp',
+    'DrivenLesson',
     'Floats',
     'Horizons',
     'Nanoseconds',

@@ -13,7 +13,7 @@ from push_core.geometry import quaternion_to_yaw
 from push_node.stamps import NANOSECONDS, to_nanoseconds
 
 from push_bag.file import Columns
-from push_bag.run.series import Floats, ModelFacts, PerturbationEvent, Reference
+from push_bag.run.series import DrivenLesson, Floats, ModelFacts, PerturbationEvent, Reference
 
 STAMP = ('header.stamp.sec', 'header.stamp.nanosec')
 UNIT_TOLERANCE = 0.01  # of the squared norm of a quaternion, as in tf2
@@ -34,6 +34,7 @@ STATE_FIELDS = (
     *STAMP,
     'mode',
     'stop_reason',
+    'model_id',
     'reference_time',
     'state',
     'input',
@@ -132,6 +133,18 @@ def reference(message: Any) -> Reference:
 def model(message: Any) -> ModelFacts:
     """The facts of a ModelInfo message."""
     return ModelFacts(message.points, message.model_hash, message.kind)
+
+
+def lesson(message: Any, since: int) -> DrivenLesson:
+    """What a Lesson message tells, driven from a tick with a stamp [ns] on."""
+    deviations = np.sqrt(np.reshape(message.covariance, (2, 2)).diagonal())
+    return DrivenLesson(
+        since=since,
+        pushes=message.pushes,
+        friction=(message.friction, message.friction * float(deviations[0])),
+        support_radius=(message.support_radius, message.support_radius * float(deviations[1])),
+        shift=np.reshape(message.shift, (-1, 2)),
+    )
 
 
 def perturbation(message: Any) -> PerturbationEvent:

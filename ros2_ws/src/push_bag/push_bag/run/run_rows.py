@@ -1,7 +1,7 @@
 """Collects the records of a bag and turns them into the series of its starts."""
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -18,6 +18,7 @@ from push_bag.run.conversions import (
     STATE_FIELDS,
     TRUTH_FIELDS,
     TWIST_FIELDS,
+    lesson,
     measured_poses,
     model,
     perturbation,
@@ -31,6 +32,7 @@ from push_bag.run.parameter_changes import ParameterChange, parameter_changes
 from push_bag.run.series import (
     NEVER,
     STATE_COLUMNS,
+    DrivenLesson,
     Floats,
     ModelFacts,
     Reference,
@@ -45,6 +47,7 @@ STATE = interface.CONTROLLER_STATE.short_name
 RARE = (
     interface.NOMINAL_TRAJECTORY.short_name,
     interface.MODEL_INFO.short_name,
+    interface.LESSON.short_name,
     interface.PERTURBATION.short_name,
     interface.HORIZON.short_name,
     interface.RUN_END.short_name,
@@ -70,6 +73,7 @@ class RunRows:
         self._topics: dict[str, tuple[TrafficLog, Callable[[Record], None] | None]] = {}
         self._sources: dict[str, str] = {}
         self._stop_reasons: list[str] = []
+        self._model_ids: list[str] = []
         self._readers: Mapping[str, Callable[[Record], None]] = {
             **{name: table.add for name, table in self._tables.items()},
             **{name: records.append for name, records in self._rare.items()},
@@ -132,6 +136,7 @@ class RunRows:
             foreign_commands=self._foreign_commands(start),
             reference=self._reference(start),
             model=self._model(start),
+            lessons=tuple(self._lessons(start)),
             perturbations=tuple(
                 perturbation(each.message())
                 for each in self._within(interface.PERTURBATION, start)
@@ -204,6 +209,7 @@ class RunRows:
 
     def _states(self, columns: Columns) -> Floats:
         self._stop_reasons += columns['stop_reason'].tolist()
+        self._model_ids += columns['model_id'].tolist()
         return ticks(columns)
 
     def _stop_reason(self, start: Start) -> str:
@@ -214,6 +220,18 @@ class RunRows:
         order = self._tables[STATE].log_order[start.ticks]
         stated = [self._stop_reasons[row] for row in order.tolist()]
         return next((reason for reason in stated if reason), '')
+
+    def _lessons(self, start: Start) -> Iterator[DrivenLesson]:
+        """The lessons that drove a start, in the order of its ticks."""
+        records = self._sorted(interface.LESSON)
+        known = {each.lesson_id: each for each in (record.message() for record in records)}
+        order, before = self._tables[STATE].log_order[start.ticks], ''
+        stamps = self._state_rows.stamp[start.ticks]
+        for row, stamp in zip(order.tolist(), stamps.tolist(), strict=True):
+            driven = self._model_ids[row]
+            if driven != before and driven in known:
+                yield lesson(known[driven], stamp)
+            before = driven
 
     def _reference(self, start: Start) -> Reference | None:
         plan = self._latest(interface.NOMINAL_TRAJECTORY, start)

@@ -109,6 +109,26 @@ class ModelFacts:
 
 
 @dataclass(frozen=True)
+class DrivenLesson:
+    """What laps had taught and ticks were driven with.
+
+    Attributes:
+        since: stamp of the first of these ticks [ns].
+        pushes: that friction and support radius were identified from; 0 if they were not.
+        friction: between object and tip, and its standard deviation.
+        support_radius: [m], likewise.
+        shift: (n, 2) of the reference [m] at every sample of a lap, in the frame of its first
+            pose; (0, 2) for none.
+    """
+
+    since: int
+    pushes: int
+    friction: tuple[float, float]
+    support_radius: tuple[float, float]
+    shift: Floats
+
+
+@dataclass(frozen=True)
 class PerturbationEvent:
     """A perturbation: stamp [ns], kind as in Perturbation.msg, magnitude [m or N s]."""
 
@@ -164,6 +184,7 @@ class RunSeries:
         foreign_commands: number of commands that answer no tick of the controller.
         reference: None where none was recorded.
         model: None where none was recorded.
+        lessons: that drove the run, in order; empty where nothing is learned.
         perturbations: in order.
         horizons: planned paths, not decoded; see `Horizons`.
         changes: of the nodes' parameters until the end of the run.
@@ -182,6 +203,7 @@ class RunSeries:
     foreign_commands: int
     reference: Reference | None
     model: ModelFacts | None
+    lessons: tuple[DrivenLesson, ...]
     perturbations: tuple[PerturbationEvent, ...]
     horizons: tuple[Record, ...]
     changes: tuple[ParameterChange, ...]

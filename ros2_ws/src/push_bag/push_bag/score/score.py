@@ -78,7 +78,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         **_setting(run, run.reference),
         **_errors(tracking),
         'truth': None if truth is None else _distances(truth),
-        'per_lap': per_lap(run.reference, tracking, truth),
+        'per_lap': per_lap(run.reference, tracking, truth, run.lessons),
         **_times(run),
         'contact_losses': contact_losses(run, run.reference),
         'holds': holds(run),
@@ -175,6 +175,7 @@ def _setting(run: RunSeries, reference: Reference) -> dict[str, Any]:
     return {
         'track': reference.track,
         'laps': reference.laps,
+        'learn': bool(run.lessons),
         'speed_m_s': reference.speed,
         'controller': reference.controller,
         'profile': run.facts.get('profile'),

@@ -25,6 +25,7 @@ def score_rows(score: Mapping[str, Any]) -> list[Row]:
         ('duration', _known(score, 'duration_s', _seconds)),
         ('tracking error', _known(score, 'tracking_error_mm', _millimetres)),
         ('each lap', _laps(score['per_lap'])),
+        ('identified', _identified(score['per_lap'])),
         ('error of the true pose', _known(score, 'truth', _millimetres)),
         ('cross-track error', _known(score, 'cross_track_mm', _millimetres)),
         ('heading error', _known(score, 'heading_error_deg', _degrees)),
@@ -73,6 +74,17 @@ def _laps(laps: Sequence[Mapping[str, Any]]) -> str:
     return f'mean {means}  mm' if len(laps) > 1 else ''
 
 
+def _identified(laps: Sequence[Mapping[str, Any]]) -> str:
+    """What drove the last lap; empty if nothing was identified."""
+    known = laps[-1]['identified'] if laps else None
+    if known is None:
+        return ''
+    return (
+        f'friction {known["friction"]:.3f} +- {known["friction_std"]:.3f}, support radius '
+        f'{known["support_radius_mm"]:.2f} +- {known["support_radius_std_mm"]:.2f} mm'
+    )
+
+
 def _changed(changes: Sequence[Mapping[str, Any]]) -> str:
     """When which parameters changed; empty without a change."""
     return '; '.join(
@@ -113,6 +125,7 @@ def _verdict(score: Mapping[str, Any]) -> str:
 def _run(score: Mapping[str, Any]) -> str:
     laps = f'{score["laps"]} lap' + ('s' if score['laps'] != 1 else '')
     words = [score['track'], f'{score["speed_m_s"] * 1e3:.4g} mm/s', laps, score['controller']]
+    words += ['learning'] if score.get('learn') else []
     words += [score['profile'], score['mode']]
     seed = [] if score['seed'] is None else [f'seed {score["seed"]}']
     changes = changes_in_words(score.get('changed'))
