@@ -219,10 +219,12 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _repeat(self) -> None:
         """Sends the last command again: the simulator did not receive it."""
+        if self._postponed is not None:
+            return
         self._repeats += 1
         if self._repeats > _IGNORED and self._controller.mode in MOVING:
             self._halt(_NOT_TAKEN)
-        if self._controller.mode != Mode.IDLE and self._postponed is None:
+        if self._controller.mode != Mode.IDLE:
             self._commands.publish(self._command)
 
     def _publish_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
