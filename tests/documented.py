@@ -1,8 +1,12 @@
 """The commands that README and docs show: code blocks, and the rows of README's table of tasks.
 
-What no test can run is marked, with the reason: `<!-- not run: REASON -->` on a line before the
-block, with a blank line between, or in the row. `<!-- beside: COMMAND -->` before a block names a
-node that runs meanwhile.
+Marks stand on lines before the block, with a blank line between, or in the row:
+
+- `<!-- not run: REASON -->`: no test can run it.
+- `<!-- slow: REASON -->`: it is run only where the environment has SLOW=yes.
+- `<!-- with: NAME=VALUE ... -->`: run with these options, which shorten it or make it independent
+  of the clock. A mark in a row must not hold two dashes.
+- `<!-- beside: COMMAND; ... -->`: these nodes run meanwhile.
 """
 
 import re
@@ -17,7 +21,7 @@ PAGES = [
     *sorted((ROOT / 'docs').glob('*.md')),
     *sorted((ROOT / 'ros2_ws/src').glob('*/README.md')),
 ]
-MARK = re.compile(r'<!-- (not run|beside): (.+?) -->')
+MARK = re.compile(r'<!-- (not run|slow|with|beside): (.+?) -->')
 # marks and blank lines, then lines that are indented after a blank one, or a fence
 BLOCK = re.compile(
     r'(?P<marks>(?:^ *<!-- .*-->\n\n)*)'
@@ -35,13 +39,35 @@ class Shown:
         place: page and line.
         commands: one a line, options in brackets among them.
         not_run: why no test can run them; empty if one can.
-        beside: a node that has to run meanwhile; may be empty.
+        slow: why only SLOW=yes runs them; may be empty.
+        options: that the test adds to each command, as --NAME=VALUE.
+        beside: commands of nodes that have to run meanwhile.
     """
 
     place: str
     commands: tuple[str, ...]
     not_run: str = ''
-    beside: str = ''
+    slow: str = ''
+    options: str = ''
+    beside: tuple[str, ...] = ()
+
+    @classmethod
+    def at(cls, place: str, lines: list[str], marks: list[tuple[str, str]]) -> 'Shown':
+        """Lines as they stand on a page, with their marks."""
+        of = dict(marks)
+        return cls(
+            place,
+            tuple(command_of(line) for line in lines if line.strip()),
+            of.get('not run', ''),
+            of.get('slow', ''),
+            ''.join(f' --{option}' for option in of.get('with', '').split()),
+            tuple(filter(None, of.get('beside', '').split('; '))),
+        )
+
+    @property
+    def is_marked(self) -> bool:
+        """Whether the page says something of how it is run."""
+        return bool(self.not_run or self.slow or self.options or self.beside)
 
 
 def shown() -> list[Shown]:
@@ -52,7 +78,7 @@ def shown() -> list[Shown]:
     def is_run(command: str) -> bool:
         return any(longer.startswith(command) for longer in run)
 
-    return blocks + [row for row in rows() if row.not_run or not all(map(is_run, row.commands))]
+    return blocks + [row for row in rows() if row.is_marked or not all(map(is_run, row.commands))]
 
 
 def blocks_of(page: Path) -> Iterator[Shown]:
@@ -61,13 +87,7 @@ def blocks_of(page: Path) -> Iterator[Shown]:
     for block in BLOCK.finditer(text):
         if block['indented'] or block['language'] == 'sh':
             lines = (block['indented'] or block['fenced']).splitlines()
-            marks = dict(MARK.findall(block['marks']))
-            yield Shown(
-                place_of(page, text, block),
-                tuple(command_of(line) for line in lines if line.strip()),
-                marks.get('not run', ''),
-                marks.get('beside', ''),
-            )
+            yield Shown.at(place_of(page, text, block), lines, MARK.findall(block['marks']))
 
 
 def languages() -> Iterator[tuple[str, str]]:
@@ -85,11 +105,7 @@ def rows() -> Iterator[Shown]:
     for row in re.finditer(r'^\|.*`(?:ros2 run|…) .*\|$', text, re.MULTILINE):
         cell = row[0].split(' | ')[1]
         commands = re.findall(r'`((?:ros2 run|…) [^`]+)`', cell)
-        yield Shown(
-            place_of(page, text, row),
-            tuple(map(command_of, commands)),
-            dict(MARK.findall(cell)).get('not run', ''),
-        )
+        yield Shown.at(place_of(page, text, row), commands, MARK.findall(cell))
 
 
 def place_of(page: Path, text: str, found: re.Match[str]) -> str:

@@ -1,6 +1,8 @@
 """The commands of README and docs do what they say, in a folder with the files that they name."""
 
 import csv
+import itertools
+import os
 import shlex
 import shutil
 import signal
@@ -23,7 +25,8 @@ from rclpy.context import Context
 pytestmark = pytest.mark.processes
 
 SHOWN = shown()
-RUN = [each for each in SHOWN if not each.not_run]
+SLOW = os.environ.get('SLOW') == 'yes'
+RUN = [each for each in SHOWN if not each.not_run and (SLOW or not each.slow)]
 # what runs until Ctrl-C, and the name of its node
 NODES = {
     'sim_node': 'sim_node',
@@ -148,16 +151,18 @@ def test_the_commands_of_a_block_or_row_end_well(
     if reason := needs_what_is_not_there(each):
         pytest.skip(reason)
     with ExitStack() as nodes:
-        for command in filter(None, (each.beside, *each.commands)):
+        for command in (*each.beside, *(f'{command}{each.options}' for command in each.commands)):
             if node_of(command):
                 nodes.enter_context(running(command, environment, node_names))
             else:
-                ended = Ended.of_command(environment, 'bash', '-c', command)
+                ended = Ended.of_command(
+                    environment, 'bash', '-c', command, timeout=12 * HANG if each.slow else HANG
+                )
                 assert ended.status == 0, f'{command}\n{ended.out}{ended.err}'
 
 
 def test_most_commands_are_run() -> None:
-    assert sum(len(each.commands) for each in RUN) > 25
+    assert sum(len(each.commands) for each in RUN) > 45
 
 
 def test_a_block_that_is_no_drawing_is_run_here_or_by_test_extending() -> None:
@@ -167,7 +172,8 @@ def test_a_block_that_is_no_drawing_is_run_here_or_by_test_extending() -> None:
 
 def test_every_mark_stands_at_commands() -> None:
     written = sum(len(MARK.findall(page.read_text(encoding='utf-8'))) for page in PAGES)
-    assert written == sum(bool(each.not_run) + bool(each.beside) for each in SHOWN)
+    read = [(each.not_run, each.slow, each.options, each.beside) for each in SHOWN]
+    assert written == sum(map(bool, itertools.chain(*read)))
 
 
 def test_the_tests_that_marks_name_are_there() -> None:

@@ -34,10 +34,12 @@ class Ended:
         return cls.of_command(environment, *CELL, *arguments)
 
     @classmethod
-    def of_command(cls, environment: dict[str, str], *command: str) -> 'Ended':
-        """Runs a command to its end."""
+    def of_command(
+        cls, environment: dict[str, str], *command: str, timeout: float = HANG
+    ) -> 'Ended':
+        """Runs a command to its end; longer than the timeout [s] is a hang."""
         done = subprocess.run(
-            command, env=environment, capture_output=True, text=True, timeout=HANG, check=False
+            command, env=environment, capture_output=True, text=True, timeout=timeout, check=False
         )
         return cls(done.returncode, done.stdout, done.stderr)
 

@@ -12,31 +12,34 @@
 set -euo pipefail
 
 here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
-clone=$here/.cache/native
+root=$here/.cache/native
+readonly STAMPS=$root/.venv/.stamps
 . "$here/scripts/setup/versions.sh"
+. "$here/scripts/setup/workspace.sh"
 export PUSH_DATA_DIR=${PUSH_DATA_DIR:-$here/../shared/data}
 
 main() {
-  [ -e "$clone" ] || git clone --quiet --shared --no-checkout "$here" "$clone"
-  git -C "$clone" checkout --quiet --force --detach "$(git -C "$here" rev-parse HEAD)"
-  make -C "$clone" setup PYTHON="${PYTHON:-$(find_version 3.12)}"
+  [ -e "$root" ] || git clone --quiet --shared --no-checkout "$here" "$root"
+  git -C "$root" checkout --quiet --force --detach "$(git -C "$here" rev-parse HEAD)"
+  PYTHON=${PYTHON:-$(find_version 3.12)} "$root/scripts/setup.sh" packages
   use_versions_of_ubuntu
-  "$clone/scripts/in_env" bash -euc "$(declare -f build_and_test); build_and_test \"\$@\"" colcon "$@"
+  # shellcheck disable=SC2034 # use_wheels asks for it
+  ros=wheels
+  use_wheels
+  export VIRTUAL_ENV=$root/.venv OPENBLAS_NUM_THREADS=1
+  build_and_test "$@"
 }
 
 use_versions_of_ubuntu() {
   # contourpy, of matplotlib, is the last one that takes numpy 1
-  "$clone/.venv/bin/python" -m pip install --quiet numpy==1.26.4 setuptools==68.1.2 contourpy==1.3.2
+  "$root/.venv/bin/python" -m pip install --quiet numpy==1.26.4 setuptools==68.1.2 contourpy==1.3.2
   # the CMake files of the wheels name numpy's headers, which lay elsewhere before numpy 2
-  find "$clone/.venv/share" -name '*Export.cmake' -exec sed -i 's|numpy/_core/include|numpy/core/include|g' {} +
+  find "$root/.venv/share" -name '*Export.cmake' -exec sed -i 's|numpy/_core/include|numpy/core/include|g' {} +
 }
 
 build_and_test() {
-  cd "$VIRTUAL_ENV/../ros2_ws"
+  cd "$WORKSPACE"
   rm -rf build install log
-  # without the packages of the set-up, which are gone
-  export AMENT_PREFIX_PATH=$VIRTUAL_ENV CMAKE_PREFIX_PATH=$VIRTUAL_ENV
-  unset PYTHONPATH
   colcon build --symlink-install --cmake-args "-DPython3_EXECUTABLE=$VIRTUAL_ENV/bin/python"
   set +u
   # shellcheck source=/dev/null
