@@ -47,3 +47,10 @@ prefix_of_rclpy() {
   echo 'setup: ROS_DISTRO is jazzy but AMENT_PREFIX_PATH holds no rclpy: using the wheels' >&2
   echo wheels
 }
+
+# use_wheels: the search paths of the wheels' prefix.
+use_wheels() {
+  LD_LIBRARY_PATH=$root/.venv/lib$(cat "$STAMPS/libraries")
+  export AMENT_PREFIX_PATH=$root/.venv CMAKE_PREFIX_PATH=$root/.venv
+  export LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
+}

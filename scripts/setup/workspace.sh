@@ -67,22 +67,14 @@ hold_interrupts_of() {
 
 run_colcon() (
   cd "$WORKSPACE" || exit
-  use_wheels
+  export PATH=$root/.venv/bin:$PATH
+  [ "$ros" != wheels ] || use_wheels
   # without a load limit, which would leave one of two busy cores unused
   MAKEFLAGS=-j$(nproc)
   export MAKEFLAGS
   "$root/.venv/bin/python" -m colcon --log-base log build --symlink-install --packages-select "$@" \
     --cmake-args "-DPython3_EXECUTABLE=$root/.venv/bin/python"
 )
-
-# use_wheels: the search paths of the wheels' prefix, where no ROS is sourced.
-use_wheels() {
-  export PATH=$root/.venv/bin:$PATH
-  [ "$ros" = wheels ] || return 0
-  LD_LIBRARY_PATH=$root/.venv/lib$(cat "$STAMPS/libraries")
-  export AMENT_PREFIX_PATH=$root/.venv CMAKE_PREFIX_PATH=$root/.venv
-  export LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
-}
 
 # build_failure: the one line that says where to look.
 build_failure() {

@@ -15,7 +15,7 @@ here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
 root=$here/.cache/native
 readonly STAMPS=$root/.venv/.stamps
 . "$here/scripts/setup/versions.sh"
-. "$here/scripts/setup/workspace.sh"
+. "$here/scripts/setup/ros.sh"
 export PUSH_DATA_DIR=${PUSH_DATA_DIR:-$here/../shared/data}
 
 main() {
@@ -23,10 +23,8 @@ main() {
   git -C "$root" checkout --quiet --force --detach "$(git -C "$here" rev-parse HEAD)"
   PYTHON=${PYTHON:-$(find_version 3.12)} "$root/scripts/setup.sh" packages
   use_versions_of_ubuntu
-  # shellcheck disable=SC2034 # use_wheels asks for it
-  ros=wheels
   use_wheels
-  export VIRTUAL_ENV=$root/.venv OPENBLAS_NUM_THREADS=1
+  export VIRTUAL_ENV=$root/.venv PATH=$root/.venv/bin:$PATH OPENBLAS_NUM_THREADS=1
   build_and_test "$@"
 }
 
@@ -38,7 +36,7 @@ use_versions_of_ubuntu() {
 }
 
 build_and_test() {
-  cd "$WORKSPACE"
+  cd "$root/ros2_ws"
   rm -rf build install log
   colcon build --symlink-install --cmake-args "-DPython3_EXECUTABLE=$VIRTUAL_ENV/bin/python"
   set +u
