@@ -9,7 +9,7 @@ from push_bringup.faults.case import Case, Fault, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
 from push_bringup.faults.observer import Seen
 from push_bringup.faults.sick import FAULT_FILE
-from push_bringup.faults.sick_controller import SickSteering
+from push_bringup.faults.sick.controller import SickSteering
 from push_bringup.faults.verdict import problems, rest_time
 from push_mpc.loop import Mode
 
@@ -104,6 +104,7 @@ def test_the_summary_names_what_is_not_as_expected() -> None:
     assert [row['problems'] for row in told['unexplained']] == [['it did not stop']]
     assert told['by_fault']['stop']['as_expected'] == 1
     assert told['by_fault']['stop']['again'] == 2
+    assert told['by_fault']['stop']['reasons'] == ['stopped on request']
 
 
 @pytest.mark.parametrize('kind', KINDS)

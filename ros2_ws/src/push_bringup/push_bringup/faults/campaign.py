@@ -149,6 +149,7 @@ def summary(verdicts: Sequence[Verdict]) -> dict[str, object]:
             'again': sum(row.attempts - 1 for row in rows),
             'longest_rest_s': max(rests, default=None) if stops else None,
             'allowed_rest_s': rows[0].case.fault.detection if stops else None,
+            'reasons': sorted({row.reason for row in rows if row.reason}),
             'fastest_m_s': max(row.fastest for row in rows),
         }
     return {

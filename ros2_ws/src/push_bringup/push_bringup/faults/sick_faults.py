@@ -66,9 +66,9 @@ SICK_FAULTS: dict[str, Fault] = {
     'server_short': _answering('short', 'answers half of each request'),
     'server_poison': Fault(
         'a model that has grown is announced, with left and right exchanged',
-        Outcome.RESTS,
+        Outcome.STOPS,
         _learn('poison', POISONED),
-        '',
+        'the object',
         POISONED,
         sick=('gp_server',),
         breaks=True,
