@@ -104,6 +104,10 @@ class Witness:
         """Whether each accepted start was seen."""
         return len(self.starts) >= self.armed
 
+    def is_running(self) -> bool:
+        """Whether each accepted start was seen, and the newest has not ended."""
+        return self.has_seen_all() and bool(self.starts) and self.outcome is None
+
     @property
     def outcome(self) -> int | None:
         """Of the newest start; None while it runs."""
