@@ -5,11 +5,14 @@ from collections.abc import Callable
 
 import numpy as np
 from cell_command import Ended
+from push_bag.file import BagReader
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run import RecordedRun
+from push_bringup.in_process import recorded_lessons
 
 PLANT = ('-p', 'world.engine:=quasi_static', '-p', 'world.friction_pusher:=0.4')
-LAPS = ('--track', 'circle', '--speed', '0.15', '--laps', '2', '--learn', *PLANT)
+CIRCLE = ('--track', 'circle', '--speed', '0.15', *PLANT)
+LAPS = (*CIRCLE, '--laps', '2', '--learn')
 
 
 def driven(run: Ended) -> tuple[list[str], np.ndarray]:
@@ -35,6 +38,14 @@ def test_lockstep_learns_as_one_process_does_and_is_computed_again_bit_for_bit(
     assert first['identified'] is None
     assert 0.25 < second['identified']['friction'] < 0.6
     assert second['truth_mean_mm'] < first['truth_mean_mm']
-    for run in runs:
+    # a run of one lap goes on from there
+    further = run_cell(*CIRCLE, '--learn-from', str(runs[0].folder), '--mode', 'lockstep')
+    (lap,) = json.loads((further.folder / 'score.json').read_text())['per_lap']
+    last = recorded_lessons(BagReader(runs[0].folder))[-1]
+    assert last.laps == 2
+    assert driven(further)[0] == [last.lesson_id]
+    assert lap['identified']['pushes'] == last.pushes
+    assert lap['truth_mean_mm'] < first['truth_mean_mm']
+    for run in (*runs, further):
         again = recomputed(run.folder, Changes())
         assert (again.differs.sum(), again.skipped) == (0, 0)

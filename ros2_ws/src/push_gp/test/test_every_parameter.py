@@ -8,7 +8,7 @@ from push_gp.models.model_file import model_named
 from push_gp.server.server_settings import ServerSettings
 
 # test_gp_server.py, test_model_server.py and tests/test_learning.py show what they do
-TESTED_ELSEWHERE = {'model', 'max_points', 'learn', 'mode', 'slider.tip_radius'}
+TESTED_ELSEWHERE = {'model', 'max_points', 'learn', 'lesson', 'mode', 'slider.tip_radius'}
 NAMES = sorted(set(flatten(ServerSettings())) - TESTED_ELSEWHERE)
 
 

@@ -49,8 +49,12 @@ def work(arguments: argparse.Namespace) -> int:
     folder = new_run_folder(request.output, parameters.mpc, datetime.now().astimezone())
     with tempfile.TemporaryDirectory(prefix='push_cell_') as scratch:
         inputs = Path(scratch)
-        parameters = recorded_in(parameters, folder, inputs)
         plan = planned(parameters.mpc)
+        if request.learn_from is not None:
+            from push_bringup.commands.taught import taught_by
+
+            parameters = taught_by(request.learn_from, parameters, plan, inputs)
+        parameters = recorded_in(parameters, folder, inputs)
         write_inputs(request, parameters, plan, inputs)
         try:
             reason = _run(request, parameters, plan, inputs)

@@ -75,6 +75,12 @@ def parser() -> Parser:
         action='store_true',
         help='let each lap teach the next: friction, support radius, shift of the reference',
     )
+    parser.add_argument(
+        '--learn-from',
+        type=Path,
+        metavar='RUN',
+        help='the same, from what the last lap of a recorded run taught',
+    )
     parser.add_argument('--seed', type=int, help='of all random numbers (default 0)')
     parser.add_argument(
         '--mode',
@@ -130,7 +136,8 @@ def requested(arguments: argparse.Namespace) -> Request:
         profile=arguments.profile,
         perturb=arguments.perturb,
         laps=arguments.laps,
-        learn=arguments.learn,
+        learn=arguments.learn or arguments.learn_from is not None,
+        learn_from=arguments.learn_from,
         seed=arguments.seed,
         mode=arguments.mode,
         output=arguments.output,

@@ -107,6 +107,7 @@ def _request(values: Mapping[str, str], recorded: bool) -> Request:
         mode=chosen.get('mode'),
         laps=number(chosen, 'laps', int),
         learn=values['learn'] == 'true',
+        learn_from=None,
         seed=number(chosen, 'seed', int),
         namespace=values['namespace'],
         params=Path(values['params_file']) if values['params_file'] else None,

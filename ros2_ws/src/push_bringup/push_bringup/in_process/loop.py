@@ -38,9 +38,12 @@ class InProcessCell:
         self.controller = Controller(mpc, mpc.slider, plan)
         self._sim, self._mpc = parameters.sim, mpc
         self._first: Observation | None = None
-        table = tabulated(model, mpc.slider.side)
-        self.controller.use(self.controller.prepare_model(table, model.info.model_id))
         self.school = School(self.controller, parameters, model) if learn else None
+        if self.school is not None:
+            self.school.use_lesson()
+        else:
+            table = tabulated(model, mpc.slider.side)
+            self.controller.use(self.controller.prepare_model(table, model.info.model_id))
 
     def start(self) -> None:
         """Resets the plant and arms the controller.

@@ -169,7 +169,7 @@ def _models_of(run: RecordedRun, parameters: CellParameters, files: dict[str, Pa
     if parameters.gp != _parameters(run, Changes(), files).gp:
         return lambda _recorded_id: (model, None)
     grown = RecordedModel(model, parameters.gp.max_points, run.reader)
-    lessons = recorded_lessons(run.reader)
+    lessons = {each.lesson_id: each for each in recorded_lessons(run.reader)}
 
     def driven(recorded_id: str) -> tuple[PushModel, Lesson | None]:
         if recorded_id not in lessons:

@@ -46,12 +46,11 @@ class RecordedModel:
         return self._server.model
 
 
-def recorded_lessons(reader: BagReader) -> dict[str, Lesson]:
-    """What laps of a run have taught, by id.
+def recorded_lessons(reader: BagReader) -> list[Lesson]:
+    """What laps of a run have taught, in the order of time.
 
     Raises:
         InputError: a message is not of its topic's type.
     """
-    names = [name for name in reader.topics if short_name(name) == LESSON.short_name]
-    messages = [record.message() for record in reader.records(names)]
-    return {each.lesson_id: each for each in messages}
+    told = [each for each in reader.records() if short_name(each.topic.name) == LESSON.short_name]
+    return [record.message() for record in sorted(told, key=lambda record: record.log_ns)]

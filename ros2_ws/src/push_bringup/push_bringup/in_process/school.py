@@ -4,7 +4,15 @@ from pathlib import Path
 
 import numpy as np
 from builtin_interfaces.msg import Time
-from push_gp.learn import LapCollector, LapLearner, Learned, Measured, MeasuredLap, TimedReference
+from push_gp.learn import (
+    LapCollector,
+    LapLearner,
+    Learned,
+    Measured,
+    MeasuredLap,
+    TimedReference,
+    read_lesson,
+)
 from push_gp.models import ModelInfo, PushModel
 from push_gp.server.conversions import lesson_message
 from push_mpc.loop import FOLLOWING, Controller, Mode, Tick
@@ -29,15 +37,16 @@ class School:
     def __init__(
         self, controller: Controller, parameters: CellParameters, model: PushModel
     ) -> None:
-        """Follows a controller that has its first model."""
+        """Follows a controller; its first model is that of the first lesson."""
         mpc = self._settings = parameters.mpc
         self._controller, self._model = controller, model
-        self._learner = LapLearner(parameters.gp.slider, model.info.model_id)
+        lesson, slider = parameters.gp.lesson, parameters.gp.slider
+        start = read_lesson(Path(lesson), slider) if lesson else None
+        self._learner = LapLearner(slider, model.info.model_id, start)
         self._collector = LapCollector(controller.track_plan.duration / mpc.laps, mpc.laps)
-        self._next: Lesson | None = None
         self.lessons: list[Learned] = []
         self.messages: list[Lesson] = []
-        self._announce()
+        self._next: Lesson | None = self._announced()
 
     @property
     def models(self) -> list[ModelInfo]:
@@ -61,7 +70,7 @@ class School:
             self._learn(lap)
 
     def use_lesson(self) -> None:
-        """Lets the controller use what the last lap taught; between two ticks."""
+        """Lets the controller use what is new; between two ticks."""
         if self._next is None:
             return
         message, self._next = self._next, None
@@ -79,14 +88,14 @@ class School:
         if len(self.lessons) == 1:
             self._learner.begin(reference_of(self._controller.plan, self._settings))
         self._learner.learn(lap)
-        self._announce()
-        self._next = self.messages[-1]
+        self._next = self._announced()
 
-    def _announce(self) -> None:
+    def _announced(self) -> Lesson:
         known, base = self._learner.known, self._model.info.model_id
         message = lesson_message(known, len(self.lessons), base, Time())
         self.lessons.append(known)
         self.messages.append(message)
+        return message
 
 
 def reference_of(plan: Plan, settings: MpcSettings) -> TimedReference:

@@ -23,7 +23,7 @@ PLAN_FILE = 'nominal_trajectory.csv'
 DEFAULT_CONTROLLER = 'gp'
 _FACTS = (
     *('track', 'speed', 'controller', 'preset', 'profile', 'perturbation.kind', 'laps', 'seed'),
-    *('mode', 'model', 'learn', 'require_recorder'),
+    *('mode', 'model', 'learn', 'lesson', 'require_recorder'),
 )
 """Parameters that have facts of their own, or that do not change a run."""
 _MODEL = {'model', 'gp_server.model'}
@@ -146,7 +146,7 @@ def recorded_in(parameters: CellParameters, folder: Path, inputs: Path) -> CellP
     """
     attachments = [str(inputs / name) for name in (PARAMETERS_FILE, PLAN_FILE)]
     # files that the parameters name
-    named = (Path(parameters.gp.model), Path(parameters.mpc.track))
+    named = [Path(parameters.gp.model), Path(parameters.mpc.track), Path(parameters.gp.lesson)]
     attachments += [str(path) for path in named if path.suffix and path.is_file()]
     attachments += parameters.recorder.attachments.splitlines()
     recorder = replace(

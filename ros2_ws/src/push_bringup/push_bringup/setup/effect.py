@@ -60,6 +60,8 @@ def _check_modes(request: Request, parameters: CellParameters) -> None:
         raise InputError(
             'gp_server.learn and mpc_node.learn must be the same, set both with --learn'
         )
+    if parameters.gp.lesson and not parameters.gp.learn:
+        raise _useless('gp_server.lesson', 'nothing is learned; use --learn')
 
 
 def _check_choice(name: str, parameters: CellParameters) -> None:

@@ -18,6 +18,7 @@ class Request:
         perturb: none, normal or tangential.
         laps: rounds of a closed track.
         learn: whether each lap teaches the next.
+        learn_from: run whose last lap has taught.
         seed: of everything random.
         mode: realtime, lockstep or inprocess.
         preset: tuned or paper, for the controller.
@@ -37,6 +38,7 @@ class Request:
     perturb: str | None = None
     laps: int | None = None
     learn: bool = False
+    learn_from: Path | None = None
     seed: int | None = None
     mode: str | None = None
     preset: str | None = None

@@ -100,6 +100,7 @@ def facts(request: Request, parameters: CellParameters) -> dict[str, str]:
         'perturb': sim.perturbation.kind,
         'laps': str(mpc.laps),
         'learn': str(mpc.learn).lower(),
+        **({'learn_from': str(request.learn_from)} if request.learn_from else {}),
         'seed': str(sim.seed),
         'mode': 'inprocess' if request.is_in_process else mpc.mode,
         'changed': parameters.changed(),

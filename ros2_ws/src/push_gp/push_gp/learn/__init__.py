@@ -4,6 +4,7 @@ from push_gp.learn.cone_learner import ConeLearner
 from push_gp.learn.identification import Identified, identified
 from push_gp.learn.lap_learner import LapLearner, Learned
 from push_gp.learn.laps import LapCollector, Measured, MeasuredLap
+from push_gp.learn.lesson_file import read_lesson, write_lesson
 from push_gp.learn.reference_shift import ReferenceShift
 from push_gp.learn.segments import interrupted, segments
 from push_gp.learn.timed_reference import TimedReference
@@ -20,5 +21,7 @@ __all__ = [
     'TimedReference',
     'identified',
     'interrupted',
+    'read_lesson',
     'segments',
+    'write_lesson',
 ]

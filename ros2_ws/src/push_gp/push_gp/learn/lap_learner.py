@@ -109,6 +109,7 @@ class LapLearner:
         self._shift = ReferenceShift(reference)
         if self.known.is_of(reference):
             self._shift.shift = self.known.shift
+        if self.known.is_of(reference) or not len(self.known.shift):
             return
         self._best = None
         self._driven = _Driven(Learned(self.known.identified))

@@ -14,6 +14,7 @@ from push_node.parameters import declared
 from push_node.spin import run_node
 from rclpy.node import Node
 
+from push_gp.learn import read_lesson
 from push_gp.models import ANALYTICAL, model_named
 from push_gp.server.conversions import (
     added_pushes_message,
@@ -65,8 +66,11 @@ class GpServer(Node):  # type: ignore[misc]
         super().destroy_node()
 
     def _taught(self, settings: ServerSettings) -> Teacher:
-        base = self._server.info.model_id
-        return Teacher(self, settings.mode, settings.slider, base, self._on_lesson)
+        base, start = self._server.info.model_id, None
+        if settings.lesson:
+            start = read_lesson(Path(settings.lesson), settings.slider)
+            self._server.serve(start.model or self._server.model)
+        return Teacher(self, settings.mode, settings.slider, base, self._on_lesson, start)
 
     def _on_lesson(self) -> None:
         """Serves what the last lap has taught."""

@@ -32,6 +32,7 @@ class ServerSettings:
     learn: bool = setting(
         False, 'let each lap teach the next one: model and shift of the reference'
     )
+    lesson: str = setting('', 'file of what laps before have taught, to go on from; none if empty')
     mode: str = setting(
         'realtime',
         'clock of the cell that it learns from: the system clock, or /clock',
