@@ -1,5 +1,6 @@
 """Garbage collection, scheduling, core and memory of a process with a 10 ms loop."""
 
+import contextlib
 import ctypes
 import gc
 import os
@@ -58,6 +59,19 @@ def leave_realtime() -> None:
     os.sched_setaffinity(0, range(os.cpu_count() or 1))
 
 
+def schedule_alone(priority: int) -> None:
+    """Schedules all threads that there are, and no process that they start.
+
+    What the kernel refuses is left as it is.
+
+    Args:
+        priority: of SCHED_FIFO; 0 for ordinary scheduling.
+    """
+    policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK if priority else os.SCHED_OTHER
+    with contextlib.suppress(OSError):
+        _set_priority(priority, policy)
+
+
 def _requests(wanted: RealtimeSettings) -> Iterator[tuple[str, Callable[[], None]]]:
     if wanted.priority:
         yield f'SCHED_FIFO {wanted.priority}', lambda: _set_priority(wanted.priority)
@@ -71,9 +85,9 @@ def _threads() -> list[int]:
     return [int(thread.name) for thread in Path('/proc/self/task').iterdir()]
 
 
-def _set_priority(priority: int) -> None:
+def _set_priority(priority: int, policy: int = os.SCHED_FIFO) -> None:
     for thread in _threads():
-        os.sched_setscheduler(thread, os.SCHED_FIFO, os.sched_param(priority))
+        os.sched_setscheduler(thread, policy, os.sched_param(priority))
 
 
 def _set_core(core: int) -> None:

@@ -90,3 +90,24 @@ if os.geteuid() == 0:
 def test_a_core_that_is_not_there_is_named() -> None:
     _, warning, *_ = outcome('realtime', 'priority=0, cpu=1000')
     assert warning.startswith('not permitted here: core 1000 (Invalid argument)')
+
+
+@pytest.mark.skipif(not MAY_SCHEDULE, reason='needs CAP_SYS_NICE')
+def test_a_process_may_have_a_priority_that_those_it_starts_have_not() -> None:
+    program = """
+import os, subprocess, sys, threading
+from push_node.realtime import schedule_alone
+event = threading.Event()
+thread = threading.Thread(target=event.wait, daemon=True)
+thread.start()
+schedule_alone(10)
+print({os.sched_getscheduler(each) & 0xFF for each in (0, thread.native_id)} == {os.SCHED_FIFO})
+child = [sys.executable, '-c', 'import os; print(os.sched_getscheduler(0) == os.SCHED_OTHER)']
+print(subprocess.run(child, capture_output=True, text=True).stdout.strip())
+schedule_alone(0)
+print(os.sched_getscheduler(0) == os.SCHED_OTHER)
+"""
+    told = subprocess.run(
+        [sys.executable, '-c', program], check=True, capture_output=True, text=True
+    )
+    assert told.stdout.split() == ['True', 'True', 'True']

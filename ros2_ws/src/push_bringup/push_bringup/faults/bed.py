@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from push_core.common import RunError
+from push_core.common import RealtimeSettings, RunError
 from push_mpc.loop import Mode
 from push_mpc.plan import planned
 from push_node import interface
 from push_node.ask import ask
+from push_node.realtime import schedule_alone
 from push_node.spin import Spinner
 from rclpy.node import Node
 from std_srvs.srv import Trigger
@@ -37,6 +38,7 @@ from push_bringup.setup import (
 
 TRACK, SPEED = 'circle', 0.08
 DOMAINS = 102  # that work on every system
+_PRIORITY = RealtimeSettings().priority // 2
 _PATIENCE = 60.0  # [s] for the nodes to be ready
 _SICK = {
     'mpc_node': 'push_bringup.faults.sick.controller',
@@ -84,6 +86,8 @@ class Bed:
             service.client(self.node) for service in (interface.STOP, interface.RESUME)
         )
         self.processes.start()
+        # the relay must not be what is late, nor delay the loops
+        schedule_alone(_PRIORITY if case.mode == 'realtime' else 0)
 
     def close(self) -> None:
         """Ends the nodes."""
