@@ -16,7 +16,7 @@ from push_bringup.faults.relay import Spoil
 
 POSE_TIMEOUT = MpcSettings().pose_timeout
 FROZEN = 0.27  # [s], parameter guard.frozen and one tick
-FAST = 0.06  # [s] longer to rest from the largest speed: the lag is exponential
+FAST = 0.04  # [s] longer to rest from the largest speed: docs/operating.md, and one tick
 OVERLAPS = 0.35  # [s] until the tip seems to be guard.overlap inside the object
 
 
