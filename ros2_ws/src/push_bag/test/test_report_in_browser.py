@@ -83,6 +83,8 @@ def test_the_animation_plays_and_pauses(page) -> None:
         'before => document.getElementById("animation").data.at(-3).x[0] !== before', arg=before
     )
     page.click('#play')
+    # a busy browser hears of the click later
+    page.wait_for_function('!playing')
     stopped = cursor(page)
     time.sleep(0.2)
     assert cursor(page) == stopped
