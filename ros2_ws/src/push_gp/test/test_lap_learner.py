@@ -8,6 +8,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from push_core.physics import Slider
 from push_gp.learn import LapCollector, LapLearner, Measured, MeasuredLap, TimedReference
+from push_gp.learn.reference_shift import GAIN
 from push_gp.models import SmoothCone
 from push_gp.server.conversions import learned_of, lesson_message
 
@@ -69,6 +70,23 @@ def test_ticks_that_another_lesson_drove_do_not_shift_the_reference():
     learner.begin(reference())
     learner.learn(MeasuredLap.of(ticks(0)))
     assert not learner.learn(MeasuredLap.of(ticks(1, 'another lesson'))).shift.any()
+
+
+def test_where_the_lesson_came_late_the_shift_goes_on_from_the_one_before():
+    path = np.array([each.object_pose[:2] for each in ticks(0)])
+    followed = replace(
+        reference(), position=np.vstack([np.tile(path, (3, 1)), path[:1]]) - [1e-3, 0.0]
+    )
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(followed)
+    first = learner.learn(MeasuredLap.of(ticks(0)))
+    second = learner.learn(MeasuredLap.of(ticks(1, first.lesson_id(BASE))))
+    late = ticks(2, first.lesson_id(BASE))[:1000]
+    third = learner.learn(MeasuredLap.of(late + ticks(2, second.lesson_id(BASE))[1000:]))
+    taught = -GAIN * 1e-3
+    for lesson, early, later in ((second, taught, taught), (third, taught, 2.0 * taught)):
+        assert np.allclose(lesson.shift[500:900, 0], early, rtol=1e-6)
+        assert np.allclose(lesson.shift[1100:1900, 0], later, rtol=1e-6)
 
 
 def test_another_track_keeps_the_model_and_forgets_the_shift():

@@ -94,6 +94,7 @@ class LapLearner:
         self._cone = ConeLearner(slider, NOMINAL_DISTANCE, start.identified if start else None)
         self._driven = _Driven(start or Learned(self._cone.known))
         self._best: _Driven | None = None
+        self._before = self._driven
         self._changed = False
         self._reference: TimedReference | None = None
 
@@ -105,7 +106,7 @@ class LapLearner:
     def begin(self, reference: TimedReference) -> None:
         """A run begins, at rest; a shift of another reference is forgotten."""
         self._reference = reference
-        self._changed = False
+        self._before, self._changed = self._driven, False
         self._shift = ReferenceShift(reference)
         if self.known.is_of(reference):
             self._shift.shift = self.known.shift
@@ -139,7 +140,7 @@ class LapLearner:
         return self.known
 
     def _drive(self, driven: _Driven, changed: bool) -> None:
-        self._driven, self._changed = driven, changed
+        self._before, self._driven, self._changed = self._driven, driven, changed
         self._shift.shift = driven.learned.shift
 
     def _teach_reference(self, lap: MeasuredLap, errors: Array) -> None:
@@ -148,6 +149,12 @@ class LapLearner:
         if self._changed:
             # the change disturbs whatever follows it
             broken[np.flatnonzero(driven)[:1]] = True
+        else:
+            # in real time a lesson comes in mid-lap; until then the one before it drives
+            early = (lap.driven == self._before.learned.lesson_id(self._base)) & ~driven
+            errors = errors.copy()
+            errors[early] += self._shift.driven_by(self._before.learned.shift, lap.time[early])
+            driven |= early
         teaches = driven & ~self._after(lap.time, lap.time[broken])
         self._shift.learn(lap.time[teaches], errors[teaches])
 

@@ -5,6 +5,7 @@ model. Source: Bristow, Tharayil and Alleyne 2006, with a zero-phase filter over
 """
 
 import numpy as np
+from numpy.typing import NDArray
 from push_core.geometry import Array
 
 from push_gp.learn.timed_reference import TimedReference
@@ -35,6 +36,14 @@ class ReferenceShift:
         half = max(1, round(SMOOTHED / reference.speed / reference.period))
         self._window = np.hanning(2 * half + 3)[1:-1]
 
+    def driven_by(self, shift: Array, times: Array) -> Array:
+        """What to add to errors (m, 2) at times (m,) of the reference under another shift (n, 2).
+
+        With it `learn` shifts those places from that shift on; (0, 2) is none.
+        """
+        shift = shift if len(shift) else np.zeros_like(self.shift)
+        return np.asarray((self.shift - shift)[self._rows(times)] / GAIN)
+
     def learn(self, times: Array, errors: Array) -> None:
         """Shifts the reference against the errors of a lap; places without one learn nothing.
 
@@ -51,10 +60,14 @@ class ReferenceShift:
     def _binned(self, times: Array, errors: Array) -> tuple[Array, Array]:
         """Sums of the errors (n, 2) and number of them (n, 1) at every sample of the lap."""
         sums, counts = np.zeros_like(self.shift), np.zeros((len(self.shift), 1))
-        rows = (times / self._lap * len(self.shift)).astype(int) % len(self.shift)
+        rows = self._rows(times)
         np.add.at(sums, rows, errors)
         np.add.at(counts, rows, 1.0)
         return sums, counts
+
+    def _rows(self, times: Array) -> NDArray[np.intp]:
+        """The sample of the lap at each time (m,) [s]."""
+        return (times / self._lap * len(self.shift)).astype(np.intp) % len(self.shift)
 
     def _smooth(self, values: Array) -> Array:
         """Averages (n, k) over the window; the lap is closed."""
