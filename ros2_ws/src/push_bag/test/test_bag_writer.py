@@ -1,8 +1,10 @@
 """A bag is finished, or stays readable up to where it was cut short."""
 
 import resource
+import tracemalloc
 
 import pytest
+from mcap.reader import make_reader
 from push_bag.file.bag_writer import BagWriter
 from push_bag.file.message_types import schema_text
 from push_bag.file.reader import BagReader
@@ -61,6 +63,29 @@ def test_a_full_disk_stops_the_recording_and_leaves_it_readable(tmp_path, small_
     assert read == list(range(1, len(read) + 1))
     assert len(read) >= bag.counts['/text'] - 1 > 20
     assert not (tmp_path / 'run' / 'metadata.yaml').exists()
+
+
+def test_memory_does_not_grow_with_the_recording_and_the_index_is_whole(tmp_path):
+    chunks, topics = 2000, [f'/text_{number}' for number in range(10)]
+    with BagWriter(tmp_path / 'run', {}, {}) as bag:
+        for topic in topics:
+            bag.add_topic(topic, STRING, '[]')
+        tracemalloc.start()
+        for number in range(1, chunks + 1):
+            for topic in topics:
+                bag.write(topic, text(5), number, number, number)
+            bag.flush()
+            if number == chunks // 10:
+                before, _ = tracemalloc.get_traced_memory()
+        after, _ = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert after - before < 50 * chunks
+    with bag.path.open('rb') as stream:
+        summary = make_reader(stream).get_summary()
+    assert [index.message_start_time for index in summary.chunk_indexes] == list(
+        range(1, chunks + 1)
+    )
+    assert {len(index.message_index_offsets) for index in summary.chunk_indexes} == {len(topics)}
 
 
 def test_an_existing_folder_is_refused(tmp_path):

@@ -13,7 +13,7 @@ from push_core.common import InputError, RunError
 from push_bag.file.message_types import Definition, installed_definition
 from push_bag.file.rosbag2_metadata import TimeSpan, write_metadata
 from push_bag.file.topic_registry import Topic, TopicRegistry
-from push_bag.stream import Attachment, write_attachment
+from push_bag.stream import Attachment, ChunkIndexes, write_attachment
 
 CHUNK_BYTES = 64 * 1024  # bounds what a kill can lose and how long a write can block
 FACTS_RECORD = 'run'
@@ -62,6 +62,8 @@ class BagWriter:
         self._last_ns = 0
         self._stream: IO[bytes] | None = _new_file(self.path)
         self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
+        self._indexes = ChunkIndexes(self.folder)
+        vars(self._writer)['_Writer__chunk_indices'] = self._indexes
         self._registry = TopicRegistry(self._writer)
         self._attempt(lambda: self._write_head(attachments, profile))
 
@@ -248,6 +250,7 @@ class BagWriter:
         self._stream = None
         if stream is not None:
             stream.close()
+            self._indexes.close()
 
     def _abandon(self) -> None:
         try:

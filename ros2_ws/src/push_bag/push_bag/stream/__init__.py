@@ -1,8 +1,9 @@
-"""The records of an MCAP file, read with bounded memory."""
+"""The records of an MCAP file, read and written with bounded memory."""
 
 from push_bag.stream.attachment import Attachment, attachment, is_intact, write_attachment
 from push_bag.stream.byte_file import ByteFile
 from push_bag.stream.chunk import Chunk, chunk, chunk_records, verify
+from push_bag.stream.chunk_indexes import ChunkIndexes
 from push_bag.stream.records import (
     MAGIC,
     CutShortError,
@@ -21,6 +22,7 @@ __all__ = [
     'Attachment',
     'ByteFile',
     'Chunk',
+    'ChunkIndexes',
     'CutShortError',
     'DamagedError',
     'RawMessage',
