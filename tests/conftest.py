@@ -78,5 +78,6 @@ def by_hand(
     yield start
     for process in started:
         if process.poll() is None:
-            process.kill()
+            # the real `ros2 run` hands no signal on to its node
+            os.killpg(process.pid, signal.SIGKILL)
         process.wait()

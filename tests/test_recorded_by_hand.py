@@ -1,5 +1,6 @@
 """Four nodes that were started by hand are recorded with all that a recomputation needs."""
 
+import os
 import signal
 import subprocess
 from collections.abc import Callable
@@ -43,7 +44,7 @@ def push_twice(
         started = Ended.of_command(environment, 'ros2', 'run', 'push_bringup', 'start')
         assert started.status == 0, started.err
         assert not wait_until_ended(folder / 'run1', number).stop_reason
-    recorder.send_signal(signal.SIGINT)
+    os.killpg(recorder.pid, signal.SIGINT)
     assert recorder.wait(timeout=HANG) == 0
 
 

@@ -176,8 +176,9 @@ class RandomSequence:
     def _kill(self) -> str:
         node = str(self._random.choice(NODES))
         number = SIGNALS[int(self._random.integers(len(SIGNALS)))]
-        # one that still imports has no handler yet
-        fair = (0, 130) if self._graph.catches(node, signal.SIGTERM) else (0, 130, -number)
+        ready = self._graph.catches(node, signal.SIGTERM)
+        # an interpreter that still imports has no handler yet
+        fair = (0, 130) if ready else (0, 130, 1, -number)
         status = self._graph.end(node, number)
         if number != signal.SIGKILL and status not in fair:
             raise RunError(f'{node} ended with status {status} after {number.name}')
