@@ -138,7 +138,8 @@ def test_without_poses_it_holds_still_and_then_stops_until_resumed(cell, started
 
 
 def test_a_new_model_is_taken_over_without_a_missed_tick(cell, started) -> None:
-    started(LINE)
+    # slow, so that a busy machine has the model before the end of the line
+    started(LINE, 'speed:=0.02')
     cell.begin()
     first = cell.states[-1].tick
     cell.announce_model('another')
