@@ -69,7 +69,10 @@ def midpoint_step(case, start, inputs, disturbance):
         rates = case.rates(0.5 * (start + end), inputs, disturbance)
         return (end - start - STEP * rates) / UNITS
 
-    return fsolve(defect, start, xtol=1e-13)
+    # a tolerance near rounding, for which the solver would warn
+    end, *_ = fsolve(defect, start, xtol=1e-13, full_output=True)
+    assert np.abs(defect(end)).max() < 1e-12
+    return end
 
 
 def test_the_matrices_are_the_derivatives_of_a_step_along_the_last_plan(

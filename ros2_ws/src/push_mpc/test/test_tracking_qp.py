@@ -103,7 +103,7 @@ def test_without_bounds_it_is_the_least_squares_solution(problem, unrolled) -> N
     preferred = np.sqrt(INPUT_WEIGHTS) * aim[:, NX:]
     unchanged = np.zeros(5 * NU)
     right = [root * (later - free), preferred.ravel(), change * BEFORE, unchanged]
-    expected = np.linalg.lstsq(rows, np.concatenate(right))[0].reshape(6, NU)
+    expected = np.linalg.lstsq(rows, np.concatenate(right), rcond=None)[0].reshape(6, NU)
     assert np.allclose(solved(problem).inputs, expected, rtol=0, atol=1e-6)
 
 
