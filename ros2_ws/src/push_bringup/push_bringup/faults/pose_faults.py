@@ -112,7 +112,8 @@ _REPEATED = {
         'one camera repeats the pose of the object',
         Outcome.STOPS,
         _frozen(interface.OBJECT_POSE),
-        'inside the object',
+        # inside it, or behind it where the tip went round its edge meanwhile
+        'the object',
         FROZEN + OVERLAPS + FAST,
     ),
 }
