@@ -1,5 +1,6 @@
 """The node as a process of its own, over real DDS."""
 
+import math
 import signal
 import subprocess
 import sys
@@ -290,6 +291,7 @@ def test_what_is_no_plan_leaves_the_one_before(client, lockstep) -> None:
     client.announce_plan(pose, p_y)
     client.wait(lambda: client.reset_to_plan().success)
     client.announce_half_a_plan()
+    client.announce_plan([0.2, -0.1, math.inf], p_y)
     assert all(client.reset_to_plan().success for _ in range(5))
     client.truths.clear()
     client.wait(lambda: len(client.truths) >= 3)

@@ -141,7 +141,8 @@ class SimNode(Node):  # type: ignore[misc]
 
     def _on_plan(self, message: NominalTrajectory) -> None:
         lines = (message.x, message.y, message.theta, message.p_y)
-        if all(lines) and len({len(line) for line in lines}) == 1:
+        whole = all(lines) and len({len(line) for line in lines}) == 1
+        if whole and np.isfinite([line[0] for line in lines]).all():
             self._plan = message
         else:
             self.get_logger().error(f'{interface.NOMINAL_TRAJECTORY.name}: no plan, ignored')
