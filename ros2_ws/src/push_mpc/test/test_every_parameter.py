@@ -47,6 +47,7 @@ NAMES = sorted(
 )
 CONTROLLERS = ('gp', 'analytical')
 TICKS = 95
+BLIND, FROZEN = 16, 20  # ticks before which the poses are missing, or the controller as well
 FAILING = range(24, 27)  # ticks in which the solver finds nothing
 
 
@@ -64,9 +65,9 @@ def poses(plan: Plan) -> list[tuple[Array, Array]]:
 
 
 def times() -> Array:
-    """Exposures (TICKS,) [s] of the poses; once none comes for 110 ms."""
+    """Exposures (TICKS,) [s] of the poses; twice none comes for 110 ms."""
     ticks = np.arange(TICKS)
-    return 0.01 * ticks + 0.10 * (ticks >= 20)
+    return 0.01 * ticks + 0.10 * (ticks >= BLIND) + 0.10 * (ticks >= FROZEN)
 
 
 def no_solution(*_problem: object) -> Move:
@@ -84,7 +85,7 @@ def settings(tmp_path_factory) -> MpcSettings:
 
 @pytest.fixture(scope='module')
 def commands(table: Table, settings: MpcSettings) -> Callable[..., Array]:
-    """The commands (TICKS, 2) of a controller that answer the same poses."""
+    """The commands (n, 2) of a controller that answer the same poses, or go on without."""
     seen = poses(planned(settings))
 
     def answers(changed: MpcSettings, controller: str) -> Array:
@@ -94,6 +95,8 @@ def commands(table: Table, settings: MpcSettings) -> Callable[..., Array]:
         made.arm()
         healthy, ticks = made._tracker.steering.solve, []
         for tick, (pair, exposure) in enumerate(zip(seen, times(), strict=True)):
+            if tick == BLIND:
+                ticks += [made.coast(exposure + 0.01 * late - 0.095) for late in range(10)]
             made._tracker.steering.solve = no_solution if tick in FAILING else healthy
             ticks.append(made.step(*pair, exposure, exposure + 0.005))
         return np.array([tick.velocity for tick in ticks])
