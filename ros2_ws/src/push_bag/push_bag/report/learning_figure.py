@@ -81,7 +81,8 @@ def _add_errors(figure: go.Figure, run: ReportedRun) -> None:
             y=[lap[key] for lap in laps],
             text=[_number(lap[key]) for lap in laps],
             mode='lines+markers+text',
-            textposition='top right',
+            textposition='top center',
+            cliponaxis=False,
             name=run.name,
             line={'color': run.colour, 'width': 1.5},
         )
