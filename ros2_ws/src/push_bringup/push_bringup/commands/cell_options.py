@@ -29,6 +29,14 @@ Exit status: 0 the last lap was completed, 1 it was not, 2 the command was wrong
 def parser() -> Parser:
     """The command line."""
     parser = Parser('Pushes the square along a track, records the run and scores it.', EPILOG)
+    _add_task(parser)
+    _add_conditions(parser)
+    _add_run(parser)
+    return parser
+
+
+def _add_task(parser: Parser) -> None:
+    """What is pushed where, and by which controller."""
     tracks = ', '.join(TRACKS)
     parser.add_argument(
         '--track',
@@ -47,6 +55,10 @@ def parser() -> Parser:
         metavar='FILE',
         help='model file for gp; default: a model of 200 simulated pushes, trained once',
     )
+
+
+def _add_conditions(parser: Parser) -> None:
+    """Under which conditions, where it begins, and how often."""
     parser.add_argument(
         '--profile',
         choices=tuple(PROFILES),
@@ -81,6 +93,10 @@ def parser() -> Parser:
         metavar='RUN',
         help='the same, from what the last lap of a recorded run taught',
     )
+
+
+def _add_run(parser: Parser) -> None:
+    """How the run is made, with which parameters, and where it goes."""
     parser.add_argument('--seed', type=int, help='of all random numbers (default 0)')
     parser.add_argument(
         '--mode',
@@ -114,7 +130,6 @@ def parser() -> Parser:
         metavar='DIR',
         help='the run gets a new folder in it (default %(default)s)',
     )
-    return parser
 
 
 def requested(arguments: argparse.Namespace) -> Request:
