@@ -11,7 +11,7 @@ import pytest
 import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from node_tests import own_domain
+from node_tests import kill_all, own_domain
 from push_core.physics.motion_cone import MotionCone
 from push_core.physics.slider import Slider
 from push_msgs.msg import ControllerState, Horizon, ModelInfo, NominalTrajectory
@@ -204,10 +204,7 @@ def started() -> Iterator[Callable[..., 'subprocess.Popen[str]']]:
         return process
 
     yield start
-    for process in processes:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
+    kill_all(processes)
 
 
 def is_zero(command: TwistStamped) -> bool:

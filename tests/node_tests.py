@@ -1,10 +1,11 @@
-"""What tests that start nodes need for themselves: a DDS domain, and the cores."""
+"""What tests that start nodes need: a DDS domain of their own, the cores, and an end of processes."""
 
 import fcntl
 import itertools
 import os
+import subprocess
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
@@ -46,3 +47,11 @@ def one_at_a_time() -> Iterator[None]:
     with Path(__file__).open(encoding='utf-8') as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield
+
+
+def kill_all(processes: Iterable[subprocess.Popen[str]]) -> None:
+    """Ends the processes that a test has started, and reads what is left of their output."""
+    for process in processes:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()

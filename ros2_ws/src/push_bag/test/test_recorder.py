@@ -8,6 +8,7 @@ import time
 
 import pytest
 import rclpy
+from node_tests import kill_all
 from push_bag.file.message_types import message_class
 from push_bag.file.reader import BagReader
 from push_bag.record.recorder import open_bag
@@ -82,9 +83,7 @@ def start():
         return process
 
     yield start_recorder
-    for process in started:
-        process.kill()
-        process.communicate()
+    kill_all(started)
 
 
 def wait_until(condition):

@@ -1,6 +1,5 @@
 """Nodes as processes of their own, and one client in this process."""
 
-import signal
 import subprocess
 import sys
 import time
@@ -9,6 +8,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from node_tests import kill_all
 from push_node.spin import Spinner
 from rclpy.context import Context
 from rclpy.node import Node
@@ -35,10 +35,7 @@ def started() -> Iterator[Callable[..., Process]]:
         return process
 
     yield start
-    for process in processes:
-        if process.poll() is None:
-            process.send_signal(signal.SIGKILL)
-        process.communicate()
+    kill_all(processes)
 
 
 @pytest.fixture(scope='module')

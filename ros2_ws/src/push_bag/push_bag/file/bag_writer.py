@@ -62,6 +62,7 @@ class BagWriter:
         self._last_ns = 0
         self._stream: IO[bytes] | None = _new_file(self.path)
         self._writer = Writer(self._stream, CHUNK_BYTES, CompressionType.ZSTD)
+        # the library's writer, whose version is pinned, has no other way to keep them on disk
         self._indexes = ChunkIndexes(self.folder)
         vars(self._writer)['_Writer__chunk_indices'] = self._indexes
         self._registry = TopicRegistry(self._writer)
