@@ -1,4 +1,4 @@
-"""What tests that start nodes need: a DDS domain of their own, the cores, and an end of processes."""
+"""What tests that start nodes need: a DDS domain of their own, cores, an end of processes."""
 
 import fcntl
 import itertools
