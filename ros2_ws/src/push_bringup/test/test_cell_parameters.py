@@ -92,6 +92,8 @@ def test_what_was_changed_is_told_without_what_has_facts_of_its_own() -> None:
     assert resolve().changed() == ''
     changed = {'profile': 'irb120', 'seed': 5, 'mpc_node.actuator.lag': 0.02}
     assert resolve(overrides=changed).changed() == 'mpc_node.actuator.lag=0.02'
+    shared = {'slider.tip_radius': 0.0}
+    assert resolve(overrides=shared).changed() == 'slider.tip_radius=0.0'
 
 
 def test_a_profile_brings_the_lag_of_its_robot_to_plant_and_predictor() -> None:

@@ -48,16 +48,21 @@ class CellParameters:
         }
 
     def changed(self) -> str:
-        """What differs from the defaults of profiles and preset and has no fact of its own."""
+        """What differs from the defaults of profiles and preset and has no fact of its own.
+
+        What several nodes share counts once, without the name of a node.
+        """
         defaults = node_defaults(self.sim.profile, self.mpc.profile, self.mpc.preset)
+        nodes: dict[str, list[str]] = {}
+        for node, values in self.by_node().items():
+            for name, value in values.items():
+                usual = value == flatten(defaults[node])[name][0]
+                if not (
+                    usual or name in _FACTS or name.startswith('realtime.') or node == 'recorder'
+                ):
+                    nodes.setdefault(f'{name}={value}', []).append(node)
         return ', '.join(
-            f'{node}.{name}={value}'
-            for node, values in self.by_node().items()
-            for name, value in values.items()
-            if value != flatten(defaults[node])[name][0]
-            and name not in _FACTS
-            and not name.startswith('realtime.')
-            and node != 'recorder'
+            text if len(having) > 1 else f'{having[0]}.{text}' for text, having in nodes.items()
         )
 
     def as_yaml(self) -> str:
