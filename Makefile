@@ -2,7 +2,7 @@
 SHELL := /bin/bash
 UNIT_TESTS := $(wildcard ros2_ws/src/*/test)
 PYTEST := scripts/in_env pytest -p no:cacheprovider
-SHELL_SCRIPTS := env.sh scripts/*.sh scripts/in_env scripts/bin/ros2 docker/*.sh requirements/lock.sh .ci/run tests/tools/fresh_root.sh tests/tools/native_colcon.sh
+SHELL_SCRIPTS := env.sh scripts/*.sh scripts/in_env scripts/bin/ros2 docker/*.sh requirements/lock.sh .ci/run tests/tools/setups/fresh_root.sh tests/tools/setups/native_colcon.sh
 
 .DEFAULT_GOAL := help
 .PHONY: help demo test matrix bench lint setup clean

@@ -13,6 +13,7 @@ MODULES = {
     for package in SOURCES.iterdir()
     for path in package.glob(f'{package.name}/**/*.py')
 }
+TOOLS = {path.stem: path for path in (Path(__file__).parent / 'tools').rglob('*.py')}
 LARGEST_FOLDER = 14
 # they load ROS, plotly or another heavy library, which only some users of their wing need
 IMPORTED_BY_NAME = {
@@ -37,7 +38,7 @@ def wing_of(module: str) -> str:
 
 
 def parsed(module: str) -> ast.Module:
-    return ast.parse(MODULES[module].read_text(encoding='utf-8'))
+    return ast.parse((MODULES | TOOLS)[module].read_text(encoding='utf-8'))
 
 
 def imports_across_wings() -> Iterator[tuple[str, str]]:
@@ -55,6 +56,8 @@ def test_no_folder_is_too_full() -> None:
     for module, path in MODULES.items():
         if not module.endswith('__init__'):
             sizes[path.parent] += 1
+    for tool in TOOLS.values():
+        sizes[tool.parent] += 1
     assert {str(folder): n for folder, n in sizes.items() if n > LARGEST_FOLDER} == {}
 
 
@@ -86,3 +89,15 @@ def test_no_two_classes_share_a_name() -> None:
 
 def test_what_is_imported_by_name_still_is() -> None:
     assert {imported for _, imported in imports_across_wings()} >= IMPORTED_BY_NAME
+
+
+def test_a_tool_that_is_run_finds_what_it_imports_beside_itself() -> None:
+    elsewhere = {
+        f'{tool} imports {node.module}'
+        for tool, path in TOOLS.items()
+        for node in ast.walk(parsed(tool))
+        if isinstance(node, ast.ImportFrom)
+        and node.module in TOOLS
+        and TOOLS[node.module].parent != path.parent
+    }
+    assert elsewhere == set()

@@ -34,7 +34,7 @@ ROSDEP_KEYS = {
     'websockets': 'python3-websockets',
     'yaml': 'python3-yaml',
 }
-TOOLS = {path.stem for path in (Path(__file__).parent / 'tools').glob('*.py')}
+TOOLS = {path.stem for path in (Path(__file__).parent / 'tools').rglob('*.py')}
 ROS = re.compile(r'push_\w+|\w+_msgs|\w+_interfaces|std_srvs|rclpy|ament_index_python|launch\w*')
 
 

@@ -1,4 +1,4 @@
-"""A few of the random sequences; `tests/tools/random_sequences.py` runs any number of them."""
+"""A few of the random sequences; `tests/tools/cells/random_sequences.py` runs as many as asked."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A few of the cells with wrong clocks; `tests/tools/wrong_clocks.py` runs all."""
+"""A few of the cells with wrong clocks; `tests/tools/cells/wrong_clocks.py` runs all."""
 
 from pathlib import Path
 

@@ -67,7 +67,7 @@ def test_an_attachment_of_impossible_length_is_damage(content, tmp_path):
 @pytest.mark.parametrize('spoil', DAMAGES)
 @pytest.mark.parametrize('name', READERS)
 def test_damage_of_any_kind_gives_messages_or_an_input_error(tmp_path, content, spoil, name):
-    """tests/tools/fuzz_bag.py does the same with more cases."""
+    """tests/tools/random_input/fuzz_bag.py does the same with more cases."""
     chance = random.Random(0)
     for number in range(10):
         path = tmp_path / f'damaged_{number}.mcap'

@@ -29,7 +29,7 @@ INPUTS = tuple(topic for topic in interface.TOPICS if topic not in WITNESSES)
 TELEPORTS = (interface.RESET, interface.RESET_TO_PLAN, interface.PERTURB)
 BURST = 20  # messages between two looks at the cell
 EPILOG = """
-Example: scripts/in_env python tests/tools/flood.py --seconds 60
+Example: scripts/in_env python tests/tools/random_input/flood.py --seconds 60
 """
 
 

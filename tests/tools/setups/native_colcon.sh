@@ -2,8 +2,8 @@
 # Builds and tests the workspace by plain colcon with the versions of Ubuntu 24.04, where ROS 2 Jazzy
 # is at home: Python 3.12, numpy 1.26, setuptools 68. ROS itself comes from wheels.
 #
-#   tests/tools/native_colcon.sh                                   all tests
-#   tests/tools/native_colcon.sh --packages-select push_node       arguments for `colcon test`
+#   tests/tools/setups/native_colcon.sh                                   all tests
+#   tests/tools/setups/native_colcon.sh --packages-select push_node       arguments for `colcon test`
 #
 # PYTHON names the interpreter (default: a Python 3.12 on the PATH or of pyenv). What is committed is
 # tested, in a clone below .cache. The status is 1 where a test fails; colcon's own output is in
@@ -11,7 +11,7 @@
 # shellcheck source-path=SCRIPTDIR/../../scripts/setup
 set -euo pipefail
 
-here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../../.." && pwd -P)
 root=$here/.cache/native
 readonly STAMPS=$root/.venv/.stamps
 . "$here/scripts/setup/versions.sh"

@@ -58,7 +58,7 @@ SETTINGS: dict[str, dict[str, tuple[float, float]]] = {
 }
 """Parameters with ranges that reach beyond what is allowed, or that may not change at all."""
 EPILOG = """
-Example: scripts/in_env python tests/tools/random_sequences.py --seeds 100
+Example: scripts/in_env python tests/tools/cells/random_sequences.py --seeds 100
 """
 
 

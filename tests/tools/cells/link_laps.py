@@ -1,6 +1,6 @@
 """Pairs of laps over a fast and a slow link: by how much the slow one lets the mean error grow.
 
-    scripts/in_env python tests/tools/link_laps.py --pairs 8
+    scripts/in_env python tests/tools/cells/link_laps.py --pairs 8
 
 Plant and controller run in two network namespaces (two_machines.py), in real time, so that the
 machine should be idle; late commands and pauses in each line say whether it was. Needs root.

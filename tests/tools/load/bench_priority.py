@@ -1,6 +1,6 @@
 """What priority, core and locked memory are worth beside busy processes (docs/operating.md).
 
-    python tests/tools/bench_priority.py --runs 3
+    python tests/tools/load/bench_priority.py --runs 3
 
 Pushes a line in real time with each setting, the settings in turn, while twice as many processes
 as there are cores compute. Nothing else should run meanwhile.

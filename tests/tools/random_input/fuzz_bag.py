@@ -22,7 +22,7 @@ LARGEST = 1_000_000  # [B] of the bag: a few cases damage a short bag in most pl
 LONGEST_SWAP = 100  # [B]
 LONGEST_HOLE = 2000  # [B]
 EPILOG = """
-Example: scripts/in_env python tests/tools/fuzz_bag.py runs/RUN --cases 200
+Example: scripts/in_env python tests/tools/random_input/fuzz_bag.py runs/RUN --cases 200
 """
 
 

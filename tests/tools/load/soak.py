@@ -23,8 +23,8 @@ GROWTH = 5.0  # [MB] of memory in a node, from the third lap to the last
 MISSES = 1e-3  # share of ticks longer than the period
 LONGEST_LAP = 60.0  # [s]
 EPILOG = """
-Examples: scripts/in_env python tests/tools/soak.py --minutes 30
-          scripts/in_env python tests/tools/soak.py --minutes 480
+Examples: scripts/in_env python tests/tools/load/soak.py --minutes 30
+          scripts/in_env python tests/tools/load/soak.py --minutes 480
 Exit status: 0 memory, ticks and recording are as they must be, 1 one is not.
 """
 

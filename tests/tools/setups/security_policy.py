@@ -1,6 +1,7 @@
-"""Writes the policy of DDS security for the nodes of a cell: what each of them uses, and no more.
+r"""Writes the policy of DDS security for the nodes of a cell: what each of them uses, and no more.
 
-    python tests/tools/security_policy.py > ros2_ws/src/push_bringup/config/security_policy.xml
+    python tests/tools/setups/security_policy.py > \
+        ros2_ws/src/push_bringup/config/security_policy.xml
 
 It runs a cell and asks the graph; the recorder reads every topic of the interface, now or later.
 docs/security.md says how it is used; tests/test_security.py compares it with the interface.

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import HealthCheck, settings
 from push_core.common import Parser, run_command
 
-SOURCES = Path(__file__).parents[2] / 'ros2_ws' / 'src'
+SOURCES = Path(__file__).parents[3] / 'ros2_ws' / 'src'
 TESTS = (
     'push_core/test/test_safety.py',
     'push_mpc/test/test_pose_gate.py',
     'push_mpc/test/test_modes.py',
 )
 EPILOG = """
-Example: scripts/in_env python tests/tools/many_examples.py --examples 100000
+Example: scripts/in_env python tests/tools/random_input/many_examples.py --examples 100000
 """
 
 

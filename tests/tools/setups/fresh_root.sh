@@ -2,8 +2,8 @@
 # Runs the project in a fresh Debian root that has the base system and what README asks for, as a
 # newcomer would: debootstrap, the prerequisites line of README, then make.
 #
-#   sudo tests/tools/fresh_root.sh trixie                 make demo, make test
-#   sudo tests/tools/fresh_root.sh bookworm demo          one of them
+#   sudo tests/tools/setups/fresh_root.sh trixie                 make demo, make test
+#   sudo tests/tools/setups/fresh_root.sh bookworm demo          one of them
 #
 # ROOTS names the folder of the roots (default /var/tmp/push_cell_roots); a root that is there is
 # used again, without what an earlier run set up. What is committed is run, on the measured data of
@@ -11,7 +11,7 @@
 # ROS_DOMAIN_ID are handed on. Prints one line for each target; its output is beside the root.
 set -euo pipefail
 
-here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd -P)
+here=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../../.." && pwd -P)
 suite=${1:?name a suite: bookworm, trixie}
 shift
 targets=${*:-demo test}

@@ -1,7 +1,7 @@
 """Laps in lockstep beside twice as many busy processes as cores: how many messages the bags lack.
 
-    python tests/tools/busy_lockstep.py                        20 laps of the eight
-    python tests/tools/busy_lockstep.py --laps 5 --track line
+    python tests/tools/load/busy_lockstep.py                        20 laps of the eight
+    python tests/tools/load/busy_lockstep.py --laps 5 --track line
 
 Prints a line for each lap; the status is 1 if a lap fails or a bag lacks a message.
 """

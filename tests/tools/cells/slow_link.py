@@ -1,6 +1,6 @@
 """A network link between two network namespaces with delay, jitter and loss, in user space.
 
-    python tests/tools/slow_link.py LEFT RIGHT --delay 5 --jitter 2 --loss 0.5
+    python tests/tools/cells/slow_link.py LEFT RIGHT --delay 5 --jitter 2 --loss 0.5
 
 It makes the TAP device `wire` in each namespace and carries their Ethernet frames, in order, until
 it is ended; it prints a line when both are there. It stands for netem where the kernel has none.

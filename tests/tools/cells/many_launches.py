@@ -40,7 +40,7 @@ CHOSEN: dict[str, tuple[str, ...]] = {
 WHOLE = ('controller', 'start', 'seed', 'namespace', 'params_file', 'model', 'folder')
 """Arguments with which a whole run is awaited, and computed again."""
 EPILOG = """
-Example: scripts/in_env python tests/tools/many_launches.py --moments 10
+Example: scripts/in_env python tests/tools/cells/many_launches.py --moments 10
 """
 
 

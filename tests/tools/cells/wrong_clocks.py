@@ -38,7 +38,7 @@ NAMED = ('clock', 'stamp', 'lockstep', 'simulated')
 Clock = Callable[[int], int]
 """The stamp [ns] of a wrong clock, from the right one [ns]."""
 EPILOG = """
-Example: scripts/in_env python tests/tools/wrong_clocks.py --only lockstep
+Example: scripts/in_env python tests/tools/cells/wrong_clocks.py --only lockstep
 """
 
 

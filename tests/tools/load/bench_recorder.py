@@ -19,7 +19,7 @@ Three measurements over DDS; other load on the machine counts:
   cell    processor time and memory at the rates of the cell, and messages lost
   load    messages of 1 KB at a high rate: published, recorded, and counted as lost
   kills   SIGKILL at random times: how long before the kill the recovered bags end, at most
-Example: scripts/in_env python tests/tools/bench_recorder.py --seconds 10 --kills 5
+Example: scripts/in_env python tests/tools/load/bench_recorder.py --seconds 10 --kills 5
 """
 
 

@@ -2,13 +2,13 @@
 # Does what users did in the cases of ../shared/cases, and prints one line for each: whether the
 # output is what its expect.md wants.
 #
-#   tests/tools/cases.sh            all cases
-#   tests/tools/cases.sh NAME…      these
+#   tests/tools/cells/cases.sh            all cases
+#   tests/tools/cells/cases.sh NAME…      these
 #
 # CASES_DIR names another folder of cases; each case is a folder with a run.sh. The scripts run in
 # a scratch copy. The status is 1 where a case is not as expected; its output is then printed.
 set -u
-here=$(cd "$(dirname "$0")/../.." && pwd)
+here=$(cd "$(dirname "$0")/../../.." && pwd)
 cases=${CASES_DIR:-$here/../shared/cases}
 [ -d "$cases" ] || { echo "cases.sh: there is no folder $cases; name it by CASES_DIR" >&2; exit 2; }
 scratch=$(mktemp -d)
