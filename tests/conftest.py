@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from cell_command import CELL, PATIENT, Ended, is_pushing, wait_until
+from ament_index_python import get_package_prefix
+from cell_command import PATIENT, Ended, is_pushing, wait_until
 from node_tests import own_domain
 
 
@@ -46,8 +47,10 @@ def run_cell(environment: dict[str, str], tmp_path: Path) -> Callable[..., Ended
 def pushing_cell(environment: dict[str, str], tmp_path: Path) -> Iterator['subprocess.Popen[str]']:
     """A realtime cell that has been pushing for a second."""
     runs = tmp_path / 'runs'
+    # the real `ros2 run` hands no signal on to the cell
+    command = Path(get_package_prefix('push_bringup')) / 'lib/push_bringup/cell'
     cell = subprocess.Popen(
-        [*CELL, *PATIENT, '--speed', '0.05', '-o', str(runs)],
+        [command, *PATIENT, '--speed', '0.05', '-o', str(runs)],
         env=environment,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

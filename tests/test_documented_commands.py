@@ -10,7 +10,7 @@ import socket
 import subprocess
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -115,7 +115,8 @@ def node_of(command: str) -> str:
 @contextmanager
 def running(command: str, environment: dict[str, str], node_names: Observer) -> Iterator[None]:
     """Runs a node, from the moment the others see it until Ctrl-C."""
-    process = subprocess.Popen(['bash', '-c', f'exec {command}'], env=environment)
+    shell = ['bash', '-c', f'exec {command}']
+    process = subprocess.Popen(shell, env=environment, start_new_session=True)
     end = time.monotonic() + HANG
     try:
         while node_of(command) not in node_names():
@@ -123,11 +124,13 @@ def running(command: str, environment: dict[str, str], node_names: Observer) -> 
             assert time.monotonic() < end, f'{command}: did not start'
             time.sleep(0.05)
         yield
-        process.send_signal(signal.SIGINT)
+        # as a terminal does: the real `ros2 run` hands no signal on to its node
+        os.killpg(process.pid, signal.SIGINT)
         status = process.wait(HANG)
         assert status in (0, 130), f'{command}: ended with status {status}'
     finally:
-        process.kill()
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
 
 
 def needs_what_is_not_there(each: Shown) -> str:

@@ -1,6 +1,7 @@
 """A recorded run, replayed to a running controller, brings the recorded commands again."""
 
 import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -35,10 +36,12 @@ def nodes(
     assert replayed('info', str(recorded), '--extract', str(parts)).status == 0
     options = ['--ros-args', '--params-file', str(parts / 'params.yaml')]
     mine = ['-p', 'mode:=lockstep', '-p', 'require_recorder:=false']
-    commands = (['push_gp', 'gp_server', *options], ['push_mpc', 'mpc_node', *options, *mine])
+    modules = (['push_gp.server.gp_server'], ['push_mpc.node.mpc_node', *mine])
+    # the real `ros2 run` hands no signal on to its node
+    commands = [[sys.executable, '-m', module, *options, *rest] for module, *rest in modules]
     started = [
-        subprocess.Popen(['ros2', 'run', *each], env=environment, stderr=subprocess.DEVNULL)
-        for each in commands
+        subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL)
+        for command in commands
     ]
     yield
     for process in started:
