@@ -12,10 +12,12 @@ import sys
 import tempfile
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from ament_index_python import PackageNotFoundError, get_package_prefix
 from launch_command import LINE, Launched, is_quiet
 from push_bringup.commands.launch_arguments import ARGUMENTS
 from push_core.common import Parser, RunError, run_command
@@ -39,6 +41,13 @@ CHOSEN: dict[str, tuple[str, ...]] = {
 """Values of the arguments that are no choice."""
 WHOLE = ('controller', 'start', 'seed', 'namespace', 'params_file', 'model', 'folder')
 """Arguments with which a whole run is awaited, and computed again."""
+PREFIXES = 'AMENT_PREFIX_PATH'
+RVIZ = 'lib/rviz2/rviz2'
+RVIZ_SCRIPT = """#!/bin/sh
+[ "$1" = -d ] && grep -q 'Class: rviz_default_plugins' "$2" || exit 1
+trap 'exit 0' INT
+while :; do sleep 0.1; done
+"""
 EPILOG = """
 Example: scripts/in_env python tests/tools/cells/many_launches.py --moments 10
 """
@@ -65,9 +74,8 @@ class Case:
 
 
 def cases_of_arguments() -> list[Case]:
-    """One for each value of each argument; RViz is not started."""
+    """One for each value of each argument."""
     values = {each.name: each.choices or CHOSEN[each.name] for each in ARGUMENTS}
-    values['rviz'] = ('false',)
     return [_case(name, value) for name, chosen in values.items() for value in chosen]
 
 
@@ -149,6 +157,19 @@ def write_files(folder: Path) -> None:
     (folder / 'params.yaml').write_text('/**/mpc_node:\n  ros__parameters:\n    speed: 0.1\n')
 
 
+def with_rviz(environment: dict[str, str], folder: Path) -> dict[str, str]:
+    """An environment with an RViz: a script that reads its layout, where no real one is."""
+    with suppress(PackageNotFoundError):
+        get_package_prefix('rviz2')
+        return environment
+    prefix = folder / 'rviz_prefix'
+    for each in (RVIZ, 'share/ament_index/resource_index/packages/rviz2'):
+        (prefix / each).parent.mkdir(parents=True)
+        (prefix / each).write_text(RVIZ_SCRIPT)
+    (prefix / RVIZ).chmod(0o755)
+    return {**environment, PREFIXES: f'{prefix}:{environment[PREFIXES]}'}
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Launches; exit status 1 if something is not as it should be."""
     parser = Parser('Launches a cell in many ways and ends it.', epilog=EPILOG)
@@ -166,9 +187,10 @@ def _work(options: argparse.Namespace) -> None:
     failed = 0
     with tempfile.TemporaryDirectory(prefix='push_launches_') as name:
         write_files(Path(name))
+        environment = with_rviz(dict(os.environ), Path(name))
         for case in cases:
             try:
-                faults = faults_of(case, dict(os.environ), Path(name))
+                faults = faults_of(case, environment, Path(name))
             except (AssertionError, subprocess.TimeoutExpired) as error:
                 faults = [f'it hangs: {error}']
             failed += bool(faults)
