@@ -27,10 +27,9 @@ from push_msgs.srv import AddPushes, Perturb, Reset
 from push_node import interface
 from push_node.endpoints import GraphService
 from push_sim import collect_pushes
-from sequence_checks import LARGEST_DEVIATION, Witness, compared
+from sequence_checks import Witness, compared
 
 LOCKSTEP = 'mode:=lockstep'
-GUARD = f'guard.tracking_error:={LARGEST_DEVIATION}'
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM)
 NODES = ('sim_node', 'gp_server', 'mpc_node', 'recorder')
 MODELS = {'small.npz': 30, 'other.npz': 60}
@@ -131,8 +130,8 @@ class RandomSequence:
         elif node == 'gp_server':
             self._graph.start(node, f'model:={self._random.choice(["analytical", *MODELS])}')
         else:
-            mine = (f'controller:={self._controller}', GUARD)
-            self._graph.start(node, LOCKSTEP, 'track:=line', 'speed:=0.15', *mine)
+            controller = f'controller:={self._controller}'
+            self._graph.start(node, LOCKSTEP, 'track:=line', 'speed:=0.15', controller)
 
     def _call(self, service: GraphService, request: Any = None) -> str:
         """What a service answered."""

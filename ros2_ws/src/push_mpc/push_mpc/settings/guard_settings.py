@@ -13,7 +13,7 @@ class GuardSettings:
         5, 'ticks in a row without a usable input at which the controller fails', low=1, high=100
     )
     tracking_error: float = setting(
-        0.1, 'distance of the object from its reference at which it stops', unit='m',
+        0.05, 'distance of the object from its reference at which it stops', unit='m',
         low=0.001, high=1.0,
     )  # fmt: skip
     overlap: float = setting(
