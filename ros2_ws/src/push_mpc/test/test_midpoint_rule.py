@@ -1,5 +1,7 @@
 """The horizon linearised along the last plan, against the nonlinear motion."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from push_core.physics.motion_cone import MotionCone
@@ -60,6 +62,23 @@ def test_the_expansion_is_the_rates_and_their_derivatives(case) -> None:
     }
     for name, value in expected.items():
         assert np.allclose(getattr(found, name), value, rtol=1e-12, atol=1e-13), name
+
+
+def test_a_sideways_response_scales_one_derivative_and_the_slip_that_follows(case) -> None:
+    if not isinstance(case.motion, TravelMotion):
+        pytest.skip('the response is that of the motion under a moving tip')
+    motion, states = case.motion, case.states[:-1]
+    level = np.column_stack([states[:, :2], np.zeros(STEPS), states[:, 3]])
+    whole, turned = Expansion(STEPS, 2), Expansion(STEPS, 2)
+    motion.expand(level, case.inputs, whole)
+    replace(motion, sideways_response=-1.0).expand(level, case.inputs, turned)
+    change = turned.by_input - whole.by_input
+    sideways = whole.by_input[:, 1, 1]
+    assert np.allclose(change[:, 1, 1], -2.0 * sideways)
+    assert np.allclose(change[:, 3, 1], 2.0 * sideways)
+    change[:, [1, 3], 1] = 0.0
+    assert np.abs(change).max() < 1e-15
+    assert np.array_equal(turned.rates, whole.rates)
 
 
 def midpoint_step(case, start, inputs, disturbance):

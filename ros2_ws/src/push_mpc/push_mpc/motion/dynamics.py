@@ -53,10 +53,13 @@ class TravelMotion:
     Attributes:
         model: of the object.
         tip_x: body-frame x [m] of the tip's centre.
+        sideways_response: factor on the derivative of the object's sideways velocity by v_t in
+            `expand`.
     """
 
     model: TravelModel
     tip_x: float
+    sideways_response: float = 1.0
 
     def rates(self, state: Array, inputs: Array) -> Array:
         """Time derivative (n, 4) of states (n, 4) under inputs (n, 2)."""
@@ -87,6 +90,7 @@ class TravelMotion:
         into.combine(rate, ahead, by_beta, aside, into.twist[:, :, 2])
         np.negative(ahead, out=ahead)
         into.combine(rate, aside, by_beta, ahead, into.twist[:, :, 3])
+        into.twist[:, 1, 3] *= self.sideways_response
         into.set_error(speed)
         row = contact_row(self.tip_x)
         into.turn(state[:, 2], row, row)

@@ -41,7 +41,11 @@ class VelocitySteering:
     ) -> StagedPlan:
         """See `Steering.staged`."""
         target = steady_shift(TravelMotion(model, self._slider.tip_x), plan)
-        motion = TravelMotion(model.lookup(self._settings.horizon_steps), self._slider.tip_x)
+        motion = TravelMotion(
+            model.lookup(self._settings.horizon_steps),
+            self._slider.tip_x,
+            self._settings.sideways_response,
+        )
         contact, mean = contact_after(plan, stride), mean_over_steps(plan.input, stride)
         stages = Stages.of(SPACE, target, self._limits(contact, mean))
         excess = np.zeros_like(plan.state)

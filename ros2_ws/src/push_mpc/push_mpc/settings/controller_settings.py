@@ -110,6 +110,13 @@ class ControllerSettings:
     relinearise: bool = setting(
         False, 'linearise each QP of gp along the last solution; false: about the nominal'
     )
+    sideways_response: float = setting(
+        1.0,
+        "factor on the object's sideways velocity per v_t in the QP of gp; 1: that of the model, "
+        '-1: as in the matrices of the paper',
+        low=-1.0,
+        high=1.0,
+    )
     consistent_plan: bool = setting(
         True, "re-plan with the model's own motion equations when a model arrives"
     )

@@ -1,7 +1,8 @@
 """Bundles of the controller's defaults.
 
 `tuned`: the defaults of the settings. `paper`: the weights, step and horizon of Bauza, Hogan and
-Rodriguez 2018 without later additions; docs/control.md states its errors. `relinearised`: the QP
+Rodriguez 2018 without later additions, and the sign in their published linear models without which
+so short a horizon does not work; docs/control.md states its errors. `relinearised`: the QP
 of the controller `gp` along the last solution, with the weights that go with it.
 """
 
@@ -40,6 +41,7 @@ _PAPER = {
     'horizon_steps': 35,
     'horizon_step': 0.01,
     'relinearise': False,
+    'sideways_response': -1.0,
     'consistent_plan': False,
     'disturbance_length': 0.0,
 }
