@@ -58,7 +58,8 @@ def test_a_lap_is_judged_by_its_error_and_its_end() -> None:
 
 
 def test_a_lap_that_stays_behind_is_not_completed() -> None:
-    slow = {'sim_node.actuator.speed_limit': 0.05}
+    # the guard would end the run at 50 mm
+    slow = {'sim_node.actuator.speed_limit': 0.05, 'guard.tracking_error': 0.1}
     lap = pushed(LapJob(LINE, 'analytical', 'analytical', 'ideal', 0, slow))
     assert not lap.completed
     assert lap.max_mm > 50.0
@@ -263,14 +264,9 @@ def test_the_bench_pushes_its_rows_and_prints_them(tmp_path, monkeypatch, capsys
 def test_three_times_the_friction_that_the_model_has_learned_does_not_end_the_lap(
     model_file,
 ) -> None:
+    # with so few pushes it comes back from 60 mm; the guard ends a run at 50 mm
+    overrides = {**PLANTS['friction_0.6'].overrides, 'guard.tracking_error': 0.1}
     lap = pushed(
-        LapJob(
-            PLANTS['friction_0.6'].experiment,
-            'gp',
-            str(model_file),
-            'irb120',
-            0,
-            PLANTS['friction_0.6'].overrides,
-        )
+        LapJob(PLANTS['friction_0.6'].experiment, 'gp', str(model_file), 'irb120', 0, overrides)
     )
     assert lap.completed, lap.stop_reason
