@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from push_bringup.commands.faults_page import write_page
 from push_bringup.faults.campaign import cases, impossible, summary
 from push_bringup.faults.case import Case, Fault, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
@@ -105,6 +106,22 @@ def test_the_summary_names_what_is_not_as_expected() -> None:
     assert told['by_fault']['stop']['as_expected'] == 1
     assert told['by_fault']['stop']['again'] == 2
     assert told['by_fault']['stop']['reasons'] == ['stopped on request']
+    assert told['by_fault']['stop']['allowed_rest_s'] == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize('problem', ['', 'it did not stop'])
+def test_the_page_explains_its_columns_and_lists_what_is_not_as_expected(
+    tmp_path, problem
+) -> None:
+    case = cases(['stop'], ['realtime'], [3])[0]
+    verdicts = [Verdict(case, 1.0, 0.2, 0.08, '', (problem,) if problem else ())]
+    write_page(tmp_path / 'faults.html', verdicts, summary(verdicts))
+    shown = (tmp_path / 'faults.html').read_text()
+    assert '<td>0.20 s</td><td>0.25 s</td>' in shown
+    assert case.fault.text in shown
+    assert 'until the tip is slower than 5 mm/s' in shown
+    assert (f'<td>{problem}</td>' in shown) == bool(problem)
+    assert ('Every case led to what it must' in shown) != bool(problem)
 
 
 @pytest.mark.parametrize('kind', KINDS)

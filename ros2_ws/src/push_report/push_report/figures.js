@@ -19,6 +19,9 @@ function narrowed({ data, layout }, width) {
   }
   layout.font.size = 11;
   Object.assign(layout.margin, { l: 48, r: 10 });
+  for (const [name, axis] of Object.entries(layout)) {
+    if (name.startsWith('yaxis')) axis.automargin = true; // beside wide numbers a wider margin
+  }
   const isMap = Object.values(layout).some((axis) => axis && axis.scaleanchor);
   if (isMap) layout.height = Math.min(layout.height, width + 190);
 }

@@ -10,7 +10,7 @@ from push_report.figure_style import INK, RUN_COLOURS, styled, thinned
 from push_bag.report.reported_run import ReportedRun
 from push_bag.run import DrivenLesson, Floats, Reference
 
-HEIGHT = 340
+HEIGHT = 300
 SHIFT_HEIGHT = 560
 MAGNIFIED = 20
 TEXT = (
@@ -66,7 +66,8 @@ def _line(name: str, points: Floats, style: dict[str, object]) -> go.Scatter:
 
 
 def _figure(title: str) -> go.Figure:
-    figure = styled(go.Figure(), HEIGHT, showlegend=False)
+    margin = {'l': 70, 'r': 20, 't': 24, 'b': 50}  # without a legend
+    figure = styled(go.Figure(), HEIGHT, showlegend=False, margin=margin)
     figure.update_xaxes(title='lap', dtick=1)
     return figure.update_yaxes(title=title, rangemode='tozero')
 

@@ -4,6 +4,7 @@ const byId = (id) => document.getElementById(id);
 const SPAN = 20; // [s] that the figures show
 const MAP_PERIOD = 60; // [ms] between updates of the map
 const LINE_PERIOD = 400; // [ms] between updates of the figures over time
+const HOLE = 0.5; // [s] without a state, over which no line is drawn
 const MARGIN = 80; // [mm] round the reference
 const BAD = ['stopped', 'stopping', 'fault', 'holding', 'no controller'];
 
@@ -27,14 +28,18 @@ function circle([x, y], radius) {
   return [angles.map((a) => x + radius * Math.cos(a)), angles.map((a) => y + radius * Math.sin(a))];
 }
 
+const part = (name, index, factor = 1) => (state) => {
+  const value = state[name] ? state[name][index] : null;
+  return value === null || value === undefined ? null : factor * value;
+};
+
 function drawMap() {
   const view = byId('map');
   if (!view.data || !newest) return;
   const nothing = [[], []];
-  const seen = history.filter((state) => state.object);
   const lines = [
     plan ? [plan.x, plan.y] : nothing,
-    [seen.map((state) => state.object[0]), seen.map((state) => state.object[1])],
+    [history.map(part('object', 0)), history.map(part('object', 1))],
     newest.object ? outline(newest.object, plan ? plan.side : 90) : nothing,
     newest.horizon && newest.error !== null ? newest.horizon : nothing,
     newest.tip ? circle(newest.tip, plan ? plan.tip_radius : 5) : nothing,
@@ -52,11 +57,6 @@ function drawLines(id, series) {
   const time = history.map((state) => state.time - newest.time);
   Plotly.restyle(figure, { x: series.map(() => time), y: series.map((of) => history.map(of)) });
 }
-
-const part = (name, index, factor = 1) => (state) => {
-  const value = state[name] ? state[name][index] : null;
-  return value === null || value === undefined ? null : factor * value;
-};
 
 function drawAllLines() {
   drawLines('errors', ['error', 'p_y', 'gap'].map((name) => (state) => state[name] ?? null));
@@ -104,6 +104,8 @@ function take(state) {
   if (newest && state.time < newest.time) history.length = 0;
   // what was seen last stays in view
   newest = state.silent && newest ? { ...newest, drawn: false, ...state, tip_velocity: null } : state;
+  const last = history.at(-1);
+  if (last && state.time - last.time > HOLE) history.push({ time: state.time });
   history.push(state);
   while (history[0].time < state.time - SPAN) history.shift();
   if (state.plan !== planNumber) readPlan();

@@ -194,7 +194,7 @@ def _curves(rows: Sequence[PaperRow]) -> go.Figure:
             shown += curves
     styled(figure, CURVE_HEIGHT, margin={'l': 50, 'r': 10, 't': 70, 'b': 45})
     figure.update_layout(title={'text': _experiment(rows[0]), 'font': {'size': 14}, 'y': 0.97})
-    figure.update_xaxes(title='share of the lap [%]')
+    figure.update_xaxes(title='share of the lap [%]', dtick=25, ticklabeloverflow='allow')
     highest = 1.1 * robust_limit(np.concatenate(shown), LEAST_COLOUR_RANGE)
     return figure.update_yaxes(title='error [mm]', range=[0.0, highest])
 

@@ -79,7 +79,10 @@ def work(arguments: argparse.Namespace) -> int:
         rclpy.try_shutdown()
     results = finite({**summary(verdicts), 'skipped': skipped})
     if arguments.html is not None:
-        _write_page(arguments.html, verdicts, results)
+        # plotly takes a second to import: only a page needs it
+        from push_bringup.commands.faults_page import write_page  # noqa: PLC0415
+
+        write_page(arguments.html, verdicts, results)
     sys.stdout.write(json_text(results) if arguments.json else _text(verdicts, results))
     return 1 if any(verdict.problems for verdict in verdicts) else 0
 
@@ -119,24 +122,6 @@ def _text(verdicts: Sequence[Verdict], results: dict[str, dict[str, dict[str, ob
     ]
     failed = sum(bool(verdict.problems) for verdict in verdicts)
     return '\n'.join([*lines, f'{len(verdicts)} cases, {failed} not as expected', ''])
-
-
-def _write_page(
-    path: Path, verdicts: Sequence[Verdict], results: dict[str, dict[str, dict[str, object]]]
-) -> None:
-    # plotly takes a second to import: only a page needs it
-    from push_report.page import page, section, table  # noqa: PLC0415
-
-    failed = [
-        [verdict.case.kind, verdict.case.mode, str(verdict.case.seed), '; '.join(verdict.problems)]
-        for verdict in verdicts
-        if verdict.problems
-    ]
-    sections = [
-        section('By fault', table(HEADS, _rows(results))),
-        section('Not as expected', table(('fault', 'mode', 'seed', 'what'), failed)),
-    ]
-    path.write_text(page('Faults', sections), encoding='utf-8')
 
 
 if __name__ == '__main__':

@@ -16,7 +16,7 @@ from push_bringup.faults.bed import Bed
 from push_bringup.faults.case import Case, Outcome, Verdict
 from push_bringup.faults.kinds import KINDS
 from push_bringup.faults.link import obstacle
-from push_bringup.faults.verdict import HOST_GAP, fastest, problems, rest_time
+from push_bringup.faults.verdict import HOST_GAP, REST_TIME, fastest, problems, rest_time
 
 ATTEMPTS = 3
 EARLIEST, LATEST = 0.3, 4.0  # [s] of the reference at which a fault begins
@@ -148,7 +148,7 @@ def summary(verdicts: Sequence[Verdict]) -> dict[str, object]:
             'as_expected': sum(not row.problems for row in rows),
             'again': sum(row.attempts - 1 for row in rows),
             'longest_rest_s': max(rests, default=None) if stops else None,
-            'allowed_rest_s': rows[0].case.fault.detection if stops else None,
+            'allowed_rest_s': rows[0].case.fault.detection + REST_TIME if stops else None,
             'reasons': sorted({row.reason for row in rows if row.reason}),
             'fastest_m_s': max(row.fastest for row in rows),
         }
