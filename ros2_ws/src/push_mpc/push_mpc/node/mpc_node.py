@@ -6,17 +6,13 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from geometry_msgs.msg import TwistStamped
 from push_core.geometry import Array
-from push_msgs.msg import ControllerState
 from push_node import interface
 from push_node.diagnostics import ERROR, WARN, Reporter, worst
 from push_node.parameters import declared, on_change, override
-from push_node.publishers import PUBLISHERS
 from push_node.realtime import Scheduling, enter_realtime
 from push_node.spin import run_node
 from rclpy.clock import Clock, ClockType
-from rclpy.duration import Duration
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
@@ -24,7 +20,7 @@ from push_mpc.estimate import PoseGate
 from push_mpc.loop import MOVING, Controller, Mode, Tick, here_fault, start_fault
 from push_mpc.node import conversions
 from push_mpc.node.graph_watch import GraphWatch
-from push_mpc.node.horizon_message import HORIZON_EVERY, HorizonMessage
+from push_mpc.node.horizon_message import HorizonMessage
 from push_mpc.node.lap_gate import LapGate
 from push_mpc.node.link_watch import LinkWatch
 from push_mpc.node.loop_health import LoopHealth, stop_finding
@@ -33,12 +29,12 @@ from push_mpc.node.model_client import ModelClient
 from push_mpc.node.pose_pair import PosePair
 from push_mpc.node.preparation import Preparation
 from push_mpc.node.recorder_watch import RecorderWatch
+from push_mpc.node.tick_output import TickOutput
 from push_mpc.node.watchdog import Watchdog
 from push_mpc.plan import check_pushes, planned
 from push_mpc.settings import MpcSettings, is_changeable, mpc_settings
 from push_mpc.table import Tabulated
 
-FLUSH_TIMEOUT = 1.0  # [s] for the last command and state to arrive
 REPORT_PERIOD = 1.0  # [s]
 LESSON_PERIOD = 0.02  # [s] between two looks for a lesson that the plant waits for
 GRAPH_PERIOD = 0.2  # [s] between two looks at other commanders and the recorder
@@ -71,13 +67,12 @@ class MpcNode(Node):  # type: ignore[misc]
         )
         self._graph = GraphWatch(self)
         self._mode_log = ModeLog()
-        self._tick_count = self._extrapolations = self._repeats = 0
+        self._extrapolations = self._repeats = 0
         self._ticked = -math.inf
         self._table: Tabulated | None = None
         self._scheduling: Scheduling | None = None
-        self._command, self._state = TwistStamped(), ControllerState()
-        self._command.header.frame_id = self._state.header.frame_id = 'world'
-        self._horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
+        horizon = HorizonMessage(self._settings.horizon_steps, self._controller.horizon_step)
+        self._output = TickOutput(self, self._settings.mode, horizon)
         self._preparation = Preparation(self._settings, self._controller)
         self._model = ModelClient(self, self._settings, self._preparation.prepare)
         self._laps = LapGate(self._controller.plan.duration, self._settings.laps)
@@ -90,10 +85,6 @@ class MpcNode(Node):  # type: ignore[misc]
         self._watchdog = Watchdog(self._settings.period)
         self._reporter = Reporter(self, 'control')
         self._health, self._reported = LoopHealth(self._settings.period), time.monotonic()
-        self._outputs = PUBLISHERS[self._settings.mode](self)
-        self._commands = self._outputs.of(interface.PUSHER_VELOCITY_CMD)
-        self._states = self._outputs.of(interface.CONTROLLER_STATE)
-        self._horizons = self._outputs.of(interface.HORIZON)
         on_change(self, self._settings, self._on_change, self._check_change)
         self._nominal = interface.NOMINAL_TRAJECTORY.publisher(self)
         self._announce_plan()
@@ -107,9 +98,7 @@ class MpcNode(Node):  # type: ignore[misc]
         while self._controller.mode == Mode.STOPPING:
             time.sleep(self._settings.period)
             self._slow_down()
-        # a destroyed publisher drops messages that have not arrived
-        for publisher in (self._commands, self._states):
-            publisher.wait_for_all_acked(Duration(seconds=FLUSH_TIMEOUT))
+        self._output.flush()
         self._preparation.close()
         self._model.close()
         super().destroy_node()
@@ -164,11 +153,11 @@ class MpcNode(Node):  # type: ignore[misc]
         tick = self._computed(step, now)
         self._laps.note(tick)
         if tick.mode != Mode.IDLE:
-            self._send(tick, stamp)
-        self._publish_state(tick, stamp, 1e3 * (time.perf_counter() - arrived))
-        self._publish_horizon(tick, stamp)
+            self._output.command(tick.velocity, stamp)
+        self._tell(tick, stamp, 1e3 * (time.perf_counter() - arrived))
+        self._output.horizon(tick.planned, stamp)
         self._extrapolations += self._extrapolates(tick)
-        self._outputs.step()
+        self._output.step()
         self._controller.prepare_next()
 
     @property
@@ -193,11 +182,6 @@ class MpcNode(Node):  # type: ignore[misc]
         """Newest object pose (3,) and tip position (2,)."""
         poses = self._poses
         return conversions.planar_pose(poses.object_pose), conversions.position(poses.tip)
-
-    def _send(self, tick: Tick, stamp: int) -> None:
-        conversions.set_stamp(self._command, stamp)
-        conversions.fill_command(self._command, tick.velocity)
-        self._commands.publish(self._command)
 
     def _refused(self, reason: str) -> None:
         """Stops on a refused pose in lockstep, where the plant waits for an answer."""
@@ -225,23 +209,14 @@ class MpcNode(Node):  # type: ignore[misc]
         if self._repeats > _IGNORED and self._controller.mode in MOVING:
             self._halt(_NOT_TAKEN)
         if self._controller.mode != Mode.IDLE:
-            self._commands.publish(self._command)
+            self._output.repeat_command()
 
-    def _publish_state(self, tick: Tick, stamp: int, tick_ms: float) -> None:
-        conversions.set_stamp(self._state, stamp)
-        conversions.fill_state(self._state, tick)
-        self._mode_log.note(tick.mode, self._controller.stop_reason)
+    def _tell(self, tick: Tick, stamp: int, tick_ms: float) -> None:
+        """Publishes the record of a tick, and notes it for log and diagnostics."""
+        controller = self._controller
+        self._mode_log.note(tick.mode, controller.stop_reason)
         self._health.note(tick, tick_ms)
-        self._state.tick = self._tick_count
-        self._state.tick_ms = tick_ms
-        self._state.stop_reason = self._controller.stop_reason
-        self._state.model_id = self._controller.model_id
-        self._states.publish(self._state)
-        self._tick_count += 1
-
-    def _publish_horizon(self, tick: Tick, stamp: int) -> None:
-        if tick.planned is not None and self._tick_count % HORIZON_EVERY == 0:
-            self._horizons.publish(self._horizon.of(tick.planned, stamp))
+        self._output.state(tick, stamp, tick_ms, controller.stop_reason, controller.model_id)
 
     def _take_model(self) -> None:
         ready = self._model.ready
@@ -288,8 +263,8 @@ class MpcNode(Node):  # type: ignore[misc]
 
     def _publish(self, tick: Tick, stamp: int) -> None:
         """Publishes a tick that answers no pose."""
-        self._send(tick, stamp)
-        self._publish_state(tick, stamp, 0.0)
+        self._output.command(tick.velocity, stamp)
+        self._tell(tick, stamp, 0.0)
 
     def _on_start(self, _request: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
         if self._controller.mode in MOVING:
@@ -391,7 +366,7 @@ class MpcNode(Node):  # type: ignore[misc]
             'mode': self._controller.mode.name.lower(),
             'model': self._controller.model_id,
             'table': str(self._table or ''),
-            'ticks': str(self._tick_count),
+            'ticks': str(self._output.ticks),
             'outside_training_data': str(self._extrapolations),
             'pose_age_ms': f'{1e3 * self._poses.age:.0f}',
         }
