@@ -7,7 +7,8 @@ import pytest
 from push_core.geometry import rotation
 from push_core.physics import Slider
 from push_core.tracks import by_name
-from push_mpc.plan import Lesson, guesses
+from push_mpc.plan import Lesson
+from push_mpc.plan.leaning import guesses
 from push_mpc.plan.nominal import flat_plan
 
 LAPS = 3

@@ -15,13 +15,12 @@ from push_mpc.loop.reference_clock import ReferenceClock
 from push_mpc.loop.tick import Tick
 from push_mpc.loop.tracker import Tracker
 from push_mpc.motion import TravelMotion
-from push_mpc.plan import Lesson, Placement, Plan, consistent_plan, guesses
+from push_mpc.plan import Lesson, Placement, Plan, agreeing_plan
 from push_mpc.qp import Move, Problem
 from push_mpc.settings import ControllerSettings, approach, departure, is_apart
 from push_mpc.table import Table
 
 _STILL = np.zeros(2)
-_LEARNED_CHANGE = 1.5  # of a plan with an identified model, see `consistent_plan`
 _FARTHEST = 1e3  # [m], [rad]; a larger pose is a measurement fault
 
 
@@ -98,21 +97,11 @@ class Controller:
         lesson = lesson or Lesson()
         plan = lesson.reference(self.track_plan)
         if self.settings.consistent_plan:
-            plan = self._consistent(plan, table, lesson) or plan
+            motion = TravelMotion(table, self._slider.tip_x)
+            plan = agreeing_plan(plan, motion, self._slider, lesson.slider) or plan
         slider = lesson.slider or self._slider
         staged = self._tracker.staged(table, plan, slider)
         return PreparedModel(table, plan, staged, model_id, slider)
-
-    def _consistent(self, plan: Plan, table: Table, lesson: Lesson) -> Plan | None:
-        """The plan that agrees with a model's motion, None if none is found."""
-        motion = TravelMotion(table, self._slider.tip_x)
-        if lesson.slider is None:
-            return consistent_plan(plan, motion)
-        found = (
-            consistent_plan(guess, motion, _LEARNED_CHANGE)
-            for guess in guesses(plan, self._slider, lesson.slider)
-        )
-        return next((each for each in found if each is not None), None)
 
     def use(self, model: PreparedModel) -> None:
         """Uses a prepared model from the next tick on; the first one also warms the solver up."""

@@ -1,7 +1,6 @@
 """The nominal: state and input along a track."""
 
-from push_mpc.plan.consistent_plan import consistent_plan
-from push_mpc.plan.leaning import guesses
+from push_mpc.plan.leaning import agreeing_plan
 from push_mpc.plan.lesson import Lesson
 from push_mpc.plan.nominal import Plan
 from push_mpc.plan.placement import Placement
@@ -11,8 +10,7 @@ __all__ = [
     'Lesson',
     'Placement',
     'Plan',
+    'agreeing_plan',
     'check_pushes',
-    'consistent_plan',
-    'guesses',
     'planned',
 ]

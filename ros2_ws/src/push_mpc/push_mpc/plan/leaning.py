@@ -1,4 +1,4 @@
-"""Guesses of a plan for a slider whose support radius is not the planned one."""
+"""A plan that agrees with a model, also where its support radius is not the planned one."""
 
 import math
 from collections.abc import Iterator
@@ -8,9 +8,31 @@ import numpy as np
 from push_core.geometry import Array
 from push_core.physics import Slider
 
+from push_mpc.motion import Motion
+from push_mpc.plan.consistent_plan import consistent_plan
 from push_mpc.plan.nominal import Plan
 
 _SAME = 0.05  # change of the support radius that needs no other guess
+_LEARNED_CHANGE = 1.5  # of a plan with an identified model, see `consistent_plan`
+
+
+def agreeing_plan(
+    plan: Plan, motion: Motion, planned: Slider, known: Slider | None
+) -> Plan | None:
+    """The plan that agrees with a model's motion, None if none is found.
+
+    Args:
+        plan: made for the planned slider.
+        motion: of the model, under tip velocities.
+        planned: slider of the plan.
+        known: slider as it has been identified; None before it is.
+    """
+    if known is None:
+        return consistent_plan(plan, motion)
+    found = (
+        consistent_plan(guess, motion, _LEARNED_CHANGE) for guess in guesses(plan, planned, known)
+    )
+    return next((each for each in found if each is not None), None)
 
 
 def guesses(plan: Plan, planned: Slider, known: Slider) -> Iterator[Plan]:
