@@ -1,8 +1,8 @@
 """The QP of one tick: linearised stages, cost, constraints, solver."""
 
 from push_mpc.qp.force_steering import ForceSteering
-from push_mpc.qp.planned_states import PlannedStates
 from push_mpc.qp.problem import Problem
+from push_mpc.qp.solution import PlannedStates
 from push_mpc.qp.solver import OSQP_SETTINGS
 from push_mpc.qp.stages import NX
 from push_mpc.qp.steering import Move, StagedPlan, Steering

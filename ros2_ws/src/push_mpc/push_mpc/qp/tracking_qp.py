@@ -21,11 +21,12 @@ import numpy as np
 from push_core.geometry import Array
 from scipy import sparse
 
+from push_mpc.qp.constraint_matrix import ConstraintMatrix
 from push_mpc.qp.problem import Problem
 from push_mpc.qp.relaxed_qp import RelaxedQP
 from push_mpc.qp.solution import Solution
 from push_mpc.qp.solver import forget, run, set_up, upper_triangle
-from push_mpc.qp.stages import A_PATTERN, NX, STATE_SCALE, InputSpace, Stages
+from push_mpc.qp.stages import NX, STATE_SCALE, InputSpace, Stages
 
 
 @dataclass(frozen=True)
@@ -60,13 +61,10 @@ class TrackingQP:
         self._space = space
         self._states = NX * (steps + 1)
         self._size = self._states + space.size * steps
-        self._matrix = self._constraints()
-        self._places = self._entry_places()
-        self._limit_places = self._places_of_limits()
+        self._constraints = ConstraintMatrix(steps, space)
+        self._matrix = self._constraints.matrix
         rows = self._matrix.shape[0]
         self._low, self._high = np.zeros(rows), np.zeros(rows)
-        self._entries = np.zeros((steps, space.entries))
-        self._entry_columns, self._entry_scale = self._entry_conversion()
         self._drift = np.zeros((steps, NX, 4))
         self._targets = np.zeros((steps, NX + space.size, 3))
         self._aims = np.zeros((steps, NX + space.size))
@@ -92,7 +90,7 @@ class TrackingQP:
         Args:
             limited: see `InputSpace`; zeros stay zeros.
         """
-        self._matrix.data[self._limit_places] = limited[np.nonzero(self._space.limited)]
+        self._constraints.limit(limited)
 
     def forget(self) -> None:
         """Lets the next solve depend on no earlier one."""
@@ -111,10 +109,7 @@ class TrackingQP:
             dynamics: [A, B, c, D] of each step (N, 4, 4 + m + 1 + 3) in SI units; see
                 `MidpointRule`.
         """
-        every = dynamics.reshape(self.steps, -1)
-        np.take(every, self._entry_columns, axis=1, out=self._entries, mode='clip')
-        self._entries *= self._entry_scale
-        self._matrix.data[self._places] = self._entries
+        self._constraints.load(dynamics)
         np.divide(dynamics[:, :, -4:], STATE_SCALE[:, None], out=self._drift)
         np.take(stages.target, window, axis=0, out=self._targets, mode='clip')
         np.take(stages.low, window, axis=0, out=self._limited(self._low), mode='clip')
@@ -269,66 +264,3 @@ class TrackingQP:
         values = np.concatenate([diagonal, between, between])
         places = np.concatenate([index, before, after]), np.concatenate([index, after, before])
         return sparse.csc_matrix((values, places))
-
-    def _entry_conversion(self) -> tuple[Array, Array]:
-        """Place in `dynamics` and unit of each entry of -A and -B that a stage has."""
-        unit = np.concatenate([STATE_SCALE, self._space.scale])
-        units = -unit / STATE_SCALE[:, None]
-        width = len(unit) + 4
-        has = np.hstack([A_PATTERN, np.ones((NX, self._space.size), dtype=bool)])
-        row, column = np.nonzero(has)
-        # first those of A, then those of B, as in `_entry_places`
-        order = np.argsort(column >= NX, kind='stable')
-        row, column = row[order], column[order]
-        return row * width + column, units[row, column]
-
-    def _constraints(self) -> sparse.csc_matrix:
-        """Rows: initial state and dynamics; then, for each stage, the next p_y and its inputs."""
-        n = self.steps
-        shift = sparse.eye_array(n + 1, k=-1)
-        previous = sparse.kron(shift, np.where(A_PATTERN, -1.0, 0.0))
-        inputs = sparse.vstack([sparse.csc_array((1, n)), sparse.eye_array(n)])
-        effect = -np.ones((NX, self._space.size))
-        dynamics = sparse.hstack(
-            [sparse.eye_array(self._states) + previous, sparse.kron(inputs, effect)]
-        )
-        limited_inputs = np.vstack([np.zeros(self._space.size), self._space.limited])
-        next_contact = np.zeros((len(limited_inputs), NX))
-        next_contact[0, 3] = 1.0
-        limited = sparse.hstack(
-            [
-                sparse.kron(sparse.eye_array(n, n + 1, k=1), next_contact),
-                sparse.kron(sparse.eye_array(n), limited_inputs),
-            ]
-        )
-        matrix = sparse.csc_matrix(sparse.vstack([dynamics, limited]))
-        matrix.sort_indices()
-        return matrix
-
-    def _entry_places(self) -> Array:
-        """Index (N, entries) into the matrix data of the entries of each stage."""
-        step = np.arange(self.steps)[:, None]
-        a_row, a_column = np.nonzero(A_PATTERN)
-        inputs = self._space.size
-        b_row, b_column = np.indices((NX, inputs)).reshape(2, -1)
-        rows = NX * (step + 1) + np.concatenate([a_row, b_row])
-        columns = np.hstack([NX * step + a_column, self._states + inputs * step + b_column])
-        return self._data_index(rows, columns)
-
-    def _places_of_limits(self) -> Array:
-        """Index (N, entries) into the matrix data of the entries of the bounded combinations."""
-        step = np.arange(self.steps)[:, None]
-        row, column = np.nonzero(self._space.limited)
-        rows = self._states + (1 + len(self._space.limited)) * step + 1 + row
-        return self._data_index(rows, self._states + self._space.size * step + column)
-
-    def _data_index(self, rows: Array, columns: Array) -> Array:
-        """Index into the matrix data of entries that exist, in the shape of `rows`."""
-        count = self._matrix.nnz
-        numbered = sparse.csc_array(
-            (np.arange(1.0, count + 1.0), self._matrix.indices, self._matrix.indptr),
-            shape=self._matrix.shape,
-        ).todok()
-        pairs = zip(rows.ravel(), columns.ravel(), strict=True)
-        places = [int(numbered[int(row), int(column)]) - 1 for row, column in pairs]
-        return np.reshape(places, rows.shape)
