@@ -2,13 +2,17 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from push_bag.record.recorder_settings import RecorderSettings
+from push_bringup.experiment import LapJob, pushed
 from push_bringup.in_process.loop import InProcessCell
+from push_bringup.mismatch import PLANTS
 from push_bringup.setup.cell_parameters import CellParameters
 from push_gp.models.gp_model import GpModel
+from push_gp.models.model_file import save_model
 from push_gp.server.server_settings import ServerSettings
 from push_gp.training.train import train
 from push_mpc.loop.controller import Mode, Tick
@@ -61,6 +65,16 @@ def test_the_values_of_the_paper_get_round_as_well_as_published(lap: Lap) -> Non
     done, error = lap('paper')
     assert done
     assert error < 8.5e-3
+
+
+@pytest.mark.parametrize('speed', [200, 300])
+def test_a_fast_lap_gets_round(model: GpModel, tmp_path: Path, speed: int) -> None:
+    save_model(tmp_path / 'model.npz', model)
+    plant = PLANTS[f'speed_{speed}']
+    parts = 'gp', str(tmp_path / 'model.npz'), plant.profile, 0, plant.overrides
+    lap = pushed(LapJob(plant.experiment, *parts))
+    assert lap.completed
+    assert lap.truth_mean_mm < {200: 4.0, 300: 8.0}[speed]
 
 
 @pytest.mark.parametrize('every', [1, 2, 3])

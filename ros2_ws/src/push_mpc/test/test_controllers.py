@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from push_core.common.settings import replaced
 from push_mpc.loop.controller import Mode
+from push_mpc.loop.tracker import horizon_stride
+from push_mpc.plan.planning import planned
 from push_mpc.settings.controller_settings import ControllerSettings
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.node_settings import mpc_settings
@@ -95,3 +97,24 @@ def test_a_model_that_was_prepared_before_a_change_keeps_the_changed_limits(
     for one, other in zip(cell.controller._model.staged.stages, fresh, strict=True):
         assert np.array_equal(one.high, other.high)
         assert np.array_equal(one.low, other.low)
+
+
+@pytest.mark.parametrize(
+    ('name', 'slow', 'fast'), [('gp', 0.05, 0.05), ('analytical', 0.05, 0.109)]
+)
+def test_the_model_error_changes_no_faster_than_commands_can_answer(
+    name: str, slow: float, fast: float
+) -> None:
+    settings = replace(mpc_settings('irb120'), controller=name)
+    assert settings.filter_length(0.08) == slow
+    assert settings.filter_length(0.2) == pytest.approx(fast)
+    assert replace(settings, disturbance_length=0.0).filter_length(0.2) == 0.0
+
+
+@pytest.mark.parametrize(('name', 'slow', 'fast'), [('gp', 5, 2), ('analytical', 5, 3)])
+def test_the_horizon_is_long_enough_at_speed(name: str, slow: int, fast: int) -> None:
+    settings = replace(mpc_settings('irb120'), controller=name, speed=0.08)
+    plan = planned(settings)
+    assert horizon_stride(plan, settings) == slow
+    quick = planned(replace(settings, speed=0.22))
+    assert horizon_stride(quick, settings) == fast

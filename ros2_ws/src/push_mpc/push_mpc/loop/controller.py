@@ -10,7 +10,7 @@ from push_core.physics import Slider, limit, slowed
 from push_mpc.estimate import FaceEstimator, ObjectFilter, Predictor
 from push_mpc.loop.guard import Guard
 from push_mpc.loop.modes import FOLLOWING, Event, Mode, ModeMachine
-from push_mpc.loop.prepared_model import PreparedModel
+from push_mpc.loop.prepared_model import PreparedModel, at_speed
 from push_mpc.loop.reference_clock import ReferenceClock
 from push_mpc.loop.tick import Tick
 from push_mpc.loop.tracker import Tracker
@@ -95,6 +95,8 @@ class Controller:
             lesson: what laps have taught, None before the first.
         """
         lesson = lesson or Lesson()
+        if lesson.slider is None:
+            table = at_speed(table, self.settings, self._slider, self.track_plan.speed)
         plan = lesson.reference(self.track_plan)
         if self.settings.consistent_plan:
             motion = TravelMotion(table, self._slider.tip_x)

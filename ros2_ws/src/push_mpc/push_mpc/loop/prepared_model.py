@@ -6,7 +6,8 @@ from push_core.physics import Slider
 
 from push_mpc.plan import Placement, Plan
 from push_mpc.qp import StagedPlan
-from push_mpc.table import Table
+from push_mpc.settings import CONTROLLERS, ControllerSettings
+from push_mpc.table import Table, with_inertia
 
 
 @dataclass(frozen=True)
@@ -34,3 +35,11 @@ class PreparedModel:
             plan=placement.of(self.plan),
             staged=self.staged.placed(placement),
         )
+
+
+def at_speed(table: Table, settings: ControllerSettings, slider: Slider, speed: float) -> Table:
+    """A model of slow pushes as the settings want it at a speed [m/s]; see `with_inertia`."""
+    trained = CONTROLLERS[settings.controller].trained_model
+    if not trained or speed < settings.inertia_from:
+        return table
+    return with_inertia(table, slider, speed)

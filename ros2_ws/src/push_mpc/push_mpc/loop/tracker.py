@@ -151,8 +151,12 @@ def made_steering(settings: ControllerSettings, slider: Slider, speed: float) ->
 
 
 def horizon_stride(plan: Plan, settings: ControllerSettings) -> int:
-    """Plan samples per horizon step, from `horizon_step` [s] or else `horizon_length` [m]."""
+    """Plan samples per horizon step, from `horizon_step` [s] or else `horizon_length` [m].
+
+    At high speeds the controller's shortest horizon is longer than that length.
+    """
     if settings.horizon_step > 0.0:
         return max(1, round(settings.horizon_step / plan.period))
-    step = settings.horizon_length / settings.horizon_steps / plan.speed
-    return max(1, round(step / plan.period))
+    shortest = CONTROLLERS[settings.controller].shortest_horizon
+    whole = max(settings.horizon_length / plan.speed, shortest)
+    return max(1, round(whole / settings.horizon_steps / plan.period))

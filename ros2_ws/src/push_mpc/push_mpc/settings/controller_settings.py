@@ -10,7 +10,7 @@ from push_mpc.settings.guard_settings import GuardSettings
 from push_mpc.settings.recontact import RecontactSettings
 
 _CHANGE_SPEED = 0.08  # [m/s]
-_DELAYS = 3.0  # of the robot; shortest filter of the model error
+_DELAYS = 3.0  # of the robot; shortest filter of the model error along the last solution
 
 
 def change_share(speed: float) -> float:
@@ -117,6 +117,13 @@ class ControllerSettings:
         low=-1.0,
         high=1.0,
     )
+    inertia_from: float = setting(
+        0.16,
+        'speed of the plan from which the model of gp has the inertia of the object',
+        unit='m/s',
+        low=0.0,
+        high=10.0,
+    )
     consistent_plan: bool = setting(
         True, "re-plan with the model's own motion equations when a model arrives"
     )
@@ -158,7 +165,8 @@ class ControllerSettings:
 
         Commands under way cannot answer to an estimate: it must not change faster than they do.
         """
-        if self.disturbance_length == 0.0 or not self.relinearise:
-            return self.disturbance_length
+        if self.disturbance_length == 0.0:
+            return 0.0
+        delays = max(CONTROLLERS[self.controller].filter_delays, _DELAYS * self.relinearise)
         delay = self.actuator.dead_time + self.actuator.lag
-        return max(self.disturbance_length, _DELAYS * speed * delay)
+        return max(self.disturbance_length, delays * speed * delay)

@@ -1,6 +1,7 @@
 """The model as a bicubic table, and how it is filled from a model server."""
 
 from push_mpc.table.domain import Domain
+from push_mpc.table.inertia import with_inertia
 from push_mpc.table.surrogate import Table
 from push_mpc.table.tabulation import (
     ModelScope,
@@ -20,4 +21,5 @@ __all__ = [
     'Tabulated',
     'Tabulation',
     'tabulation',
+    'with_inertia',
 ]

@@ -39,6 +39,7 @@ class Table:
     """Bicubic interpolation of displacement rates; inputs are clamped to the grid.
 
     Attributes:
+        grid: its points.
         low: lowest p_y [m] and beta [rad] (2,).
         step: of the grid (2,).
         cells: number of cells along p_y and along beta (2,).
@@ -59,7 +60,7 @@ class Table:
             raise InputError('the model returned values that are not finite')
         if max(np.abs(mean).max(), np.abs(jacobian).max()) > _LARGEST:
             raise InputError('the model returned implausibly large displacement rates')
-        self._grid = grid
+        self.grid = grid
         self.low = np.array([grid.p_y[0], grid.beta[0]])
         self.step = np.array([grid.p_y[1] - grid.p_y[0], grid.beta[1] - grid.beta[0]])
         self.cells = np.array([grid.p_y.size - 1, grid.beta.size - 1])
@@ -68,7 +69,7 @@ class Table:
 
     def _fit(self, mean: Array, jacobian: Array) -> Array:
         """Coefficients (m - 1, k - 1, 3, 4, 4) of every cell in its unit coordinates."""
-        shape = (self._grid.p_y.size, self._grid.beta.size, 3)
+        shape = (self.grid.p_y.size, self.grid.beta.size, 3)
         value = mean.reshape(shape)
         slope_p = jacobian[:, :, 0].reshape(shape) * self.step[0]
         slope_b = jacobian[:, :, 1].reshape(shape) * self.step[1]
