@@ -80,7 +80,7 @@ def test_what_cannot_be_never_starts_and_is_named(cell, started) -> None:
     cell.call_until('start', lambda answer: answer.success)
 
 
-@pytest.mark.parametrize('seconds', [-5.0, -0.3, 0.5, 3600.0])
+@pytest.mark.parametrize('seconds', [-5.0, -0.3, -0.05, 0.5, 3600.0])
 def test_a_clock_that_jumps_during_the_run_stops_it_with_the_reason(
     cell, started, seconds: float
 ) -> None:

@@ -17,6 +17,7 @@ from push_mpc.estimate import PoseGate, TipHistory
 
 _NEVER = -(2**62)  # [ns]
 _FRESH = 0.5  # [s]
+_SET_BACK = 0.02  # [s] by which stamps go back only if a clock was set
 
 
 class PosePair:
@@ -77,7 +78,7 @@ class PosePair:
 
     def restart(self) -> None:
         """Forgets all pairs: time [s] counts from the next one."""
-        self.problem = ''
+        self.problem = self._set_back = ''
         self._origin: int | None = None
         self._handled = self._handled_clock = self._clock = self._newest = _NEVER
         self._object_stamp = _NEVER
@@ -88,6 +89,7 @@ class PosePair:
     def rewind(self) -> None:
         """Accepts stamps older than the last pair's: a clock was set, or the plant restarted."""
         self._handled = self._handled_clock = self._newest = _NEVER
+        self._set_back = ''
 
     @property
     def age(self) -> float:
@@ -196,6 +198,17 @@ class PosePair:
             )
             if rejection:
                 return rejection.reason
-        if stamp < self._newest:
-            return f'the stamps went back by {1e-9 * (self._newest - stamp):.3g} s'
-        return ''
+        return self._set_back or self._return_fault(stamp)
+
+    def _return_fault(self, stamp: int) -> str:
+        """What is wrong with a stamp [ns] that is older than the last one, empty if it is not.
+
+        Where a clock was set back, all stamps that follow are wrong by as much.
+        """
+        if stamp >= self._newest:
+            return ''
+        back = to_seconds(self._newest - stamp)
+        fault = f'the stamps went back by {back:.3g} s'
+        if not self._lockstep and back > _SET_BACK:
+            self._set_back = f'{fault}; are the clocks synchronised?'
+        return self._set_back or fault
