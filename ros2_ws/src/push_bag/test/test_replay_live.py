@@ -6,9 +6,11 @@ import pytest
 import rclpy
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from node_tests import own_domain
+from push_bag.commands import replay
 from push_bag.commands.replay import main
 from push_node import qos
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 pytestmark = pytest.mark.processes
@@ -68,6 +70,20 @@ def test_commands_never_reach_a_plant_without_a_further_word(neighbour, replayed
     assert status == 2
     assert '/driver would execute /pusher_velocity_cmd and move' in errors
     assert 'add --drive' in errors
+
+
+def test_a_plant_that_is_found_late_gets_no_command(neighbour, replayed, monkeypatch) -> None:
+    """As on busy cores, where discovery takes longer than the replay waits."""
+    monkeypatch.setattr(replay, 'check_graph', lambda *_: None)
+    driver, heard = neighbour('driver'), []
+    driver.create_subscription(TwistStamped, COMMANDS, heard.append, qos.COMMAND)
+    status, _, errors = replayed('--with-commands', '--delay', '1')
+    assert status == 2
+    assert '/driver would execute /pusher_velocity_cmd and move' in errors
+    executor = SingleThreadedExecutor(context=driver.context)
+    executor.add_node(driver)
+    executor.spin_once(timeout_sec=0.5)
+    assert heard == []
 
 
 def test_a_recorder_does_not_execute_commands(neighbour, replayed) -> None:

@@ -30,6 +30,7 @@ from push_bag.replay import (
     play,
     solved_again,
     survey,
+    unless_a_plant_listens,
 )
 
 DISCOVERY_TIME = 2.0  # [s] enough for the recorder, which looks for publishers once a second
@@ -143,9 +144,10 @@ def _replay(node: Node, bag: Survey, arguments: argparse.Namespace) -> None:
     publishers.wait_until_matched(MATCHING_TIMEOUT)
     if not publishers.have_subscribers:
         sys.stderr.write('replay: no topic has a subscriber; --delay S waits longer\n')
+    publish = publishers.publish if arguments.drive else unless_a_plant_listens(node, publishers)
     for _ in itertools.count() if arguments.loop else range(1):
         records = _records(arguments, bag, publishers)
-        count = play(records, publishers.publish, arguments.rate, bag.seconds - arguments.start)
+        count = play(records, publish, arguments.rate, bag.seconds - arguments.start)
         sys.stdout.write(f'{count} messages on {len(publishers.names)} topics replayed\n')
         sys.stdout.flush()
 

@@ -1,6 +1,6 @@
 """Replay of a bag: publishing its messages, or recomputing its commands."""
 
-from push_bag.replay.live_graph import check_graph, is_command
+from push_bag.replay.live_graph import check_graph, is_command, unless_a_plant_listens
 from push_bag.replay.playback import Publishers, from_time, in_order, play
 from push_bag.replay.recompute import Changes, Recomputed, recomputed, solved_again
 from push_bag.replay.survey import Survey, survey
@@ -18,4 +18,5 @@ __all__ = [
     'recomputed',
     'solved_again',
     'survey',
+    'unless_a_plant_listens',
 ]

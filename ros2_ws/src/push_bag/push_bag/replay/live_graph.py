@@ -1,15 +1,20 @@
 """What runs in the graph that a bag is about to be published into."""
 
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from push_core.common import InputError
 from push_node.endpoints import short_name
-from push_node.graph import publisher_names, subscriber_names
+from push_node.graph import UNNAMED, publisher_names, subscriber_names
 from push_node.interface import OBJECT_POSE, PUSHER_POSE, PUSHER_VELOCITY_CMD
 from rclpy.node import Node
 
+from push_bag.file import Record
+from push_bag.replay.playback import Publishers
+
 DISCOVERY_TIME = 1.0  # [s] for nodes that run already to answer a new one
+NAMING_TIME = 1.0  # [s] from a subscriber's discovery to its name's, on busy cores
+NAMING_PERIOD = 0.02  # [s]
 POSES = (OBJECT_POSE.short_name, PUSHER_POSE.short_name)
 ONLY_LISTEN = ('recorder_listener', 'live_listener')
 """Names of nodes that subscribe to commands without executing them."""
@@ -38,6 +43,37 @@ def check_graph(node: Node, topics: Iterable[str], drive: bool) -> None:
         _check_sources(node, topic)
         if is_command(topic) and not drive:
             _check_plant(node, topic)
+
+
+def unless_a_plant_listens(node: Node, publishers: Publishers) -> Callable[[Record], None]:
+    """Publishes records, but no command to a plant, though it was found late or comes later.
+
+    Args:
+        node: that publishes.
+        publishers: of that node.
+
+    Returns:
+        Publishes one record. It raises InputError before a command that a plant would execute.
+    """
+    known: dict[str, int] = {}
+
+    def publish(record: Record) -> None:
+        topic = record.topic.name
+        if is_command(topic):
+            count = publishers.subscribers(topic)
+            if count != known.get(topic, 0):
+                _wait_for_names(node, topic)
+                _check_plant(node, topic)
+                known[topic] = count
+        publishers.publish(record)
+
+    return publish
+
+
+def _wait_for_names(node: Node, topic: str) -> None:
+    end = time.monotonic() + NAMING_TIME
+    while UNNAMED in subscriber_names(node, topic) and time.monotonic() < end:
+        time.sleep(NAMING_PERIOD)
 
 
 def _check_sources(node: Node, topic: str) -> None:

@@ -140,6 +140,10 @@ class Publishers:
         """Whether any of the topics has a subscriber."""
         return any(each.get_subscription_count() for each in self._publishers.values())
 
+    def subscribers(self, topic: str) -> int:
+        """How many subscribers of a published topic get its messages."""
+        return int(self._publishers[topic].get_subscription_count())
+
     def publish(self, record: Record) -> None:
         """Publishes one record, after its time on /clock.
 
