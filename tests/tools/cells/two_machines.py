@@ -15,10 +15,16 @@ from pathlib import Path
 from cell_command import HANG, wait_until_ended
 from mcap_ros2.reader import read_ros2_messages
 from push_bag.run.series import RunSeries
+from push_bringup.graph.node_graph import FAST_DDS_PROFILES
+from push_bringup.setup import installed_config
 
 TOOL = Path(__file__).parent / 'slow_link.py'
 PLANT, CONTROL = f'plant{os.getpid()}', f'control{os.getpid()}'
-ACROSS = {'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET', 'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4'}
+ACROSS = {
+    'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SUBNET',
+    'FASTDDS_BUILTIN_TRANSPORTS': 'UDPv4',
+    FAST_DDS_PROFILES: str(installed_config('fastdds.xml')),
+}
 
 
 class NoNamespacesError(Exception):
