@@ -30,13 +30,13 @@ def test_lockstep_learns_as_one_process_does_and_is_computed_again_bit_for_bit(
     runs = [run_cell(*LAPS, '--mode', mode) for mode in ('lockstep', 'inprocess')]
     assert [run.status for run in runs] == [0, 0], [run.err for run in runs]
     (models, commands), (same_models, same_commands) = (driven(run) for run in runs)
-    assert len(models) == 2
+    assert len(models) > 2
     assert models == same_models
     np.testing.assert_array_equal(commands, same_commands)
     score = json.loads((runs[0].folder / 'score.json').read_text())
     first, second = score['per_lap']
-    assert first['identified'] is None
-    assert 0.25 < second['identified']['friction'] < 0.6
+    for lap in (first, second):
+        assert 0.25 < lap['identified']['friction'] < 0.6
     assert second['truth_mean_mm'] < first['truth_mean_mm']
     # a run of one lap goes on from there
     further = run_cell(*CIRCLE, '--learn-from', str(runs[0].folder), '--mode', 'lockstep')

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from builtin_interfaces.msg import Time
 from push_core.physics import Slider
+from push_core.tracks import PIECE
 from push_gp.learn import LapCollector, LapLearner, Measured, MeasuredLap, TimedReference
 from push_gp.learn.reference_shift import GAIN
 from push_gp.models import SmoothCone
@@ -38,16 +40,61 @@ def ticks(lap: int, driven: str = BASE, slider: Slider = TRUTH) -> list[Measured
 
 
 def test_a_run_is_cut_where_the_laps_of_its_reference_end():
-    collector, laps = LapCollector(LAP_TIME, 3), []
+    collector, ended = LapCollector(LAP_TIME, 3, 0.08), []
     for lap in range(3):
-        laps += [collector.add(each) for each in ticks(lap)[::20]]
-    taken = [each for each in laps if each is not None]
+        ended += [collector.add(each) for each in ticks(lap)[::20]]
+    taken = [lap for _, lap in ended if lap is not None]
     # the tick that ends a lap belongs to it; the last lap ends with the run
     assert [len(each.time) for each in taken] == [101, 100]
     last = collector.finish()
     assert last is not None
     assert len(last.time) == 99
     assert collector.finish() is None
+
+
+def test_a_run_is_cut_into_short_pieces_that_join():
+    collector = LapCollector(LAP_TIME, 3, 0.08)
+    ended = [collector.add(each)[0] for each in ticks(0)]
+    pieces = [each for each in ended if each is not None]
+    assert len(pieces) == int(0.999 * LAP_TIME * 0.08 / PIECE)
+    for before, after in pairwise(pieces):
+        assert before.time[-1] == after.time[0]
+        assert 0.08 * (after.time[-1] - after.time[0]) == pytest.approx(PIECE, abs=2e-3)
+
+
+def pieces_of(slider: Slider) -> list[MeasuredLap]:
+    collector = LapCollector(LAP_TIME, 3, 0.08)
+    return [piece for piece, _ in map(collector.add, ticks(0, slider=slider)) if piece]
+
+
+def test_a_few_pieces_identify_the_plant_and_a_change_of_it():
+    learner = LapLearner(NOMINAL, BASE)
+    learner.begin(reference())
+    for piece in pieces_of(TRUTH)[:6]:
+        learner.refine(piece)
+    assert learner.known.identified.support_radius[0] == pytest.approx(0.036, rel=0.05)
+    assert learner.known.identified.friction[0] == pytest.approx(0.15, rel=0.2)
+    learner.learn(MeasuredLap.of(ticks(0)))
+    for piece in pieces_of(TRUTH)[:8]:
+        assert learner.refine(piece) is learner.known
+    known = learner.known
+    for piece in pieces_of(replace(TRUTH, support_radius=0.055))[:8]:
+        learner.refine(piece)
+    assert learner.known.identified.support_radius[0] == pytest.approx(0.055, rel=0.05)
+    assert learner.known.shift is known.shift
+
+
+def test_a_piece_with_a_kick_or_a_gap_teaches_nothing():
+    for spoil in ('kick', 'gap'):
+        learner = LapLearner(NOMINAL, BASE)
+        learner.begin(reference())
+        piece = pieces_of(TRUTH)[3]
+        pose, tracking = piece.object_pose.copy(), piece.tracking.copy()
+        if spoil == 'kick':
+            pose[30:, 1] += 0.03
+        else:
+            tracking[30:40] = False
+        assert learner.refine(replace(piece, object_pose=pose, tracking=tracking)).model is None
 
 
 def test_a_lap_identifies_its_plant_and_the_next_one_shifts_the_reference():
@@ -105,7 +152,7 @@ def test_a_lesson_outlives_its_message_to_the_last_bit():
     learner = LapLearner(NOMINAL, BASE)
     learner.begin(reference())
     known = learner.learn(MeasuredLap.of(ticks(0)))
-    found = learned_of(lesson_message(known, 1, BASE, Time()), NOMINAL, known.model.distance)
+    found = learned_of(lesson_message(known, (1, 0), BASE, Time()), NOMINAL, known.model.distance)
     assert found.lesson_id(BASE) == known.lesson_id(BASE)
     assert found.identified.friction == known.identified.friction
     again = LapLearner(NOMINAL, BASE, found)

@@ -34,7 +34,7 @@ class LapErrors:
         mean_mm, max_mm: tracking error of the measured poses.
         truth_mean_mm: mean tracking error of the true poses.
         friction, support_radius_mm: identified value and its standard deviation, with which the
-            round was driven; None if nothing had been learned.
+            round ended; None if nothing had been learned.
     """
 
     mean_mm: float
@@ -154,7 +154,7 @@ class _LapRecorder:
         ends = np.arange(self._lap_time, self._times[-1], self._lap_time)
         rows = np.searchsorted(self._times, ends)
         parts = [np.split(np.array(each), rows) for each in (self._errors, self._truth_errors)]
-        lessons = self._school.lessons if self._school else []
+        lessons = self._school.driven if self._school else []
         known = [each.identified if each.model else None for each in lessons]
         known += [None] * (len(rows) + 1 - len(known))
         return tuple(

@@ -1,4 +1,4 @@
-"""Lets each lap of a controller in this process teach the next, as gp_server and mpc_node do."""
+"""Lets laps of a controller in this process teach what follows, as gp_server and mpc_node do."""
 
 from pathlib import Path
 
@@ -27,10 +27,11 @@ from push_bringup.setup import CellParameters
 
 
 class School:
-    """Follows a run, learns, and prepares what the next lap is driven with.
+    """Follows a run, learns, and prepares what is driven next.
 
     Attributes:
-        lessons: what each lap is driven with, and after a run what its last lap taught.
+        driven: what the end of each lap was driven with.
+        lessons: what was taught, after each piece and each lap.
         messages: the same, as gp_server announces them.
     """
 
@@ -43,10 +44,16 @@ class School:
         lesson, slider = parameters.gp.lesson, parameters.gp.slider
         start = read_lesson(Path(lesson), slider) if lesson else None
         self._learner = LapLearner(slider, model.info.model_id, start)
-        self._collector = LapCollector(controller.track_plan.duration / mpc.laps, mpc.laps)
+        self._collector = LapCollector(
+            controller.track_plan.duration / mpc.laps, mpc.laps, mpc.speed
+        )
+        self._taught = (0, 0)
+        self._begun = False
+        self.driven: list[Learned] = []
         self.lessons: list[Learned] = []
         self.messages: list[Lesson] = []
-        self._next: Lesson | None = self._announced()
+        self._next: Lesson | None = None
+        self._announce(0, 0)
 
     @property
     def models(self) -> list[ModelInfo]:
@@ -54,10 +61,10 @@ class School:
         return [(each.model or self._model).info for each in self.lessons]
 
     def observe(self, observation: Observation, tick: Tick) -> None:
-        """Takes one tick, and learns at the end of a lap."""
+        """Takes one tick, and learns at the end of a piece or a lap."""
         if tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
             return
-        lap = self._collector.add(
+        piece, lap = self._collector.add(
             Measured(
                 tick.reference_time,
                 tick.mode == Mode.TRACKING,
@@ -66,6 +73,10 @@ class School:
                 self._controller.model_id,
             )
         )
+        if piece is not None:
+            self._begin()
+            self._learner.refine(piece)
+            self._announce(0, 1)
         if lap is not None:
             self._learn(lap)
 
@@ -74,6 +85,8 @@ class School:
         if self._next is None:
             return
         message, self._next = self._next, None
+        if message.lesson_id == self._controller.model_id:
+            return
         table = tabulated(self.lessons[-1].model or self._model, self._settings.slider.side)
         lesson = conversions.lesson_of(message, self._settings)
         self._controller.use(self._controller.prepare_model(table, message.lesson_id, lesson))
@@ -84,18 +97,24 @@ class School:
         if lap is not None:
             self._learn(lap)
 
-    def _learn(self, lap: MeasuredLap) -> None:
-        if len(self.lessons) == 1:
+    def _begin(self) -> None:
+        if not self._begun:
             self._learner.begin(reference_of(self._controller.plan, self._settings))
-        self._learner.learn(lap)
-        self._next = self._announced()
+        self._begun = True
 
-    def _announced(self) -> Lesson:
+    def _learn(self, lap: MeasuredLap) -> None:
+        self._begin()
+        self.driven.append(self._learner.known)
+        self._learner.learn(lap)
+        self._announce(1, 0)
+
+    def _announce(self, laps: int, pieces: int) -> None:
+        """What is known, after further laps or pieces."""
+        self._taught = self._taught[0] + laps, self._taught[1] + pieces
         known, base = self._learner.known, self._model.info.model_id
-        message = lesson_message(known, len(self.lessons), base, Time())
+        self._next = lesson_message(known, self._taught, base, Time())
         self.lessons.append(known)
-        self.messages.append(message)
-        return message
+        self.messages.append(self._next)
 
 
 def reference_of(plan: Plan, settings: MpcSettings) -> TimedReference:

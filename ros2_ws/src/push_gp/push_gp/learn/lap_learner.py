@@ -1,4 +1,4 @@
-"""Learns from every lap of a run: the model from its pushes, the reference from its errors."""
+"""Learns from a run: the model from pushes, the reference from the errors of whole laps."""
 
 import hashlib
 import math
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from push_core.geometry import Array
 from push_core.physics import Slider
 
-from push_gp.learn.cone_learner import ConeLearner
+from push_gp.learn.cone_learner import FEWEST, ConeLearner, log_ratio
 from push_gp.learn.identification import Identified
 from push_gp.learn.laps import MeasuredLap
 from push_gp.learn.reference_shift import ReferenceShift
@@ -73,14 +73,14 @@ class Learned:
 
 @dataclass(frozen=True)
 class _Driven:
-    """What a lap is driven with, and the mean error of that lap [m], infinite before its end."""
+    """What a lap is driven with, and the mean error of that lap [m]."""
 
     learned: Learned
-    size: float = math.inf
+    size: float
 
 
 class LapLearner:
-    """Learns from one lap after the other, also of several runs."""
+    """Learns from one lap after the other, also of several runs, and from pieces of them."""
 
     def __init__(self, slider: Slider, base: str, start: Learned | None = None) -> None:
         """Begins with what is known.
@@ -92,70 +92,87 @@ class LapLearner:
         """
         self._slider, self._base = slider, base
         self._cone = ConeLearner(slider, NOMINAL_DISTANCE, start.identified if start else None)
-        self._driven = _Driven(start or Learned(self._cone.known))
+        self.known = start or Learned(self._cone.known)
+        self._lessons: dict[str, Learned] = {}
+        self._begin_lap(self.known)
         self._best: _Driven | None = None
-        self._before = self._driven
-        self._changed = False
         self._reference: TimedReference | None = None
-
-    @property
-    def known(self) -> Learned:
-        """What the next lap is driven with."""
-        return self._driven.learned
 
     def begin(self, reference: TimedReference) -> None:
         """A run begins, at rest; a shift of another reference is forgotten."""
         self._reference = reference
-        self._before, self._changed = self._driven, False
+        self._begin_lap(self.known)
         self._shift = ReferenceShift(reference)
         if self.known.is_of(reference):
             self._shift.shift = self.known.shift
-        if self.known.is_of(reference) or not len(self.known.shift):
-            return
-        self._best = None
-        self._driven = _Driven(Learned(self.known.identified))
+        elif len(self.known.shift):
+            self._best = None
+            self._begin_lap(Learned(self.known.identified))
+
+    def refine(self, piece: MeasuredLap) -> Learned:
+        """What is driven after a piece of a lap; one with a disturbance teaches nothing."""
+        broken = interrupted(piece.object_pose, piece.tip, self._slider) | ~piece.tracking
+        if broken.any():
+            return self.known
+        before = self._cone.known
+        changed = self._cone.refine(
+            segments(piece.object_pose, piece.tip, self._slider, NOMINAL_DISTANCE)
+        )
+        if changed:
+            self._since, self._best = float(piece.time[0]), None
+        if self._cone.known is not before:
+            self._take(replace(self.known, identified=self._cone.known))
+        return self.known
 
     def learn(self, lap: MeasuredLap) -> Learned:
         """What the next lap is driven with: what this one teaches, or what drove the best one."""
         assert self._reference is not None
         errors = self._reference.errors(lap.time, lap.object_pose[:, :2])
         size = float(np.hypot(*errors.T).mean())
-        before = self._cone.known
-        after = self._cone.learn(
-            segments(lap.object_pose, lap.tip, self._slider, NOMINAL_DISTANCE)
-        )
+        same = lap.time >= self._since
+        pushes = segments(lap.object_pose[same], lap.tip[same], self._slider, NOMINAL_DISTANCE)
+        after = self._cone.learn(pushes)
         if self._best is not None and size > WORSE * self._best.size:
             # a plant that changed must be able to become better than it is
             self._best = replace(self._best, size=math.inf)
-            best = self._best.learned.identified
-            self._drive(self._best, is_another(self.known.identified, best))
-            return self.known
-        if self.known.model and (self._best is None or size < self._best.size):
-            self._best = replace(self._driven, size=size)
-        another = is_another(before, after)
-        if not another:
-            self._teach_reference(lap, errors)
+            self._shift.shift = self._best.learned.shift
+            return self._begin_lap(self._best.learned)
+        if self._best is None or size < self._best.size:
+            self._best = _Driven(self.known, size)
+        if len(pushes) >= FEWEST:
+            self._teach_reference(lap, errors, after)
         shift, reference = self._shift.shift, self._reference
-        self._drive(_Driven(Learned(after, reference.track, reference.speed, shift)), another)
-        return self.known
+        return self._begin_lap(Learned(after, reference.track, reference.speed, shift))
 
-    def _drive(self, driven: _Driven, changed: bool) -> None:
-        self._before, self._driven, self._changed = self._driven, driven, changed
-        self._shift.shift = driven.learned.shift
+    def _begin_lap(self, learned: Learned) -> Learned:
+        """A lap begins; in real time what drove the last one goes on for a while."""
+        self._before, self._since = self.known, -math.inf
+        self._lessons.clear()
+        self._take(self.known)
+        self._take(learned)
+        return learned
 
-    def _teach_reference(self, lap: MeasuredLap, errors: Array) -> None:
+    def _take(self, learned: Learned) -> None:
+        self.known = learned
+        self._lessons[learned.lesson_id(self._base)] = learned
+
+    def _teach_reference(self, lap: MeasuredLap, errors: Array, after: Identified) -> None:
+        """Teaches from the ticks whose model was much the same as the one from now on."""
         broken = interrupted(lap.object_pose, lap.tip, self._slider) | ~lap.tracking
-        driven = lap.driven == self.known.lesson_id(self._base)
-        if self._changed:
-            # the change disturbs whatever follows it
-            broken[np.flatnonzero(driven)[:1]] = True
-        else:
+        # what follows another model is disturbed by it
+        broken[0] |= is_another(self._before.identified, after)
+        teaches = np.zeros(len(lap.time), dtype=bool)
+        errors = errors.copy()
+        for lesson_id in np.unique(lap.driven):
+            lesson = self._lessons.get(str(lesson_id))
+            rows = lap.driven == lesson_id
+            if lesson is None or is_another(lesson.identified, after):
+                broken |= rows
+                continue
             # in real time a lesson comes in mid-lap; until then the one before it drives
-            early = (lap.driven == self._before.learned.lesson_id(self._base)) & ~driven
-            errors = errors.copy()
-            errors[early] += self._shift.driven_by(self._before.learned.shift, lap.time[early])
-            driven |= early
-        teaches = driven & ~self._after(lap.time, lap.time[broken])
+            errors[rows] += self._shift.driven_by(lesson.shift, lap.time[rows])
+            teaches |= rows
+        teaches &= ~self._after(lap.time, lap.time[broken])
         self._shift.learn(lap.time[teaches], errors[teaches])
 
     def _after(self, times: Array, disturbances: Array) -> NDArray[np.bool_]:
@@ -170,8 +187,6 @@ class LapLearner:
 
 def is_another(before: Identified, after: Identified) -> bool:
     """Whether the errors under one cone say nothing about those under another one."""
-    changes = (
-        math.log(after.model.slider.friction_pusher / before.model.slider.friction_pusher),
-        math.log(after.model.slider.support_radius / before.model.slider.support_radius),
-    )
-    return before.pushes == 0 or max(map(abs, changes)) > ANOTHER_MODEL
+    if not (before.pushes and after.pushes):
+        return before.pushes != after.pushes
+    return float(np.abs(log_ratio(before, after)).max()) > ANOTHER_MODEL

@@ -1,10 +1,11 @@
-"""Collects what was measured in each lap of a run."""
+"""Collects what was measured in each lap of a run, and in each short piece of it."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from push_core.geometry import Array
+from push_core.tracks import PIECE, Parts
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,7 @@ class Measured:
 
 @dataclass(frozen=True)
 class MeasuredLap:
-    """What was measured in a lap.
+    """What was measured in a lap, or in a piece of one.
 
     Attributes:
         time: (m,) of the reference [s].
@@ -59,34 +60,39 @@ class MeasuredLap:
 
 
 class LapCollector:
-    """Cuts the ticks of a run into laps.
+    """Cuts the ticks of a run into laps, and into short pieces of path.
 
-    Attributes:
-        done: laps that are complete.
+    The controller waits for what each of them teaches, see `LapGate` of push_mpc.
     """
 
-    def __init__(self, lap_time: float, laps: int) -> None:
-        """Waits for the first lap of a number of them, each with a duration [s]."""
-        self.done = 0
-        self._lap_time, self._laps = lap_time, laps
-        self._ticks: list[Measured] = []
+    def __init__(self, lap_time: float, laps: int, speed: float) -> None:
+        """Waits for the first of a number of laps, each with a duration [s], at a speed [m/s]."""
+        self._laps, self._pieces = Parts(lap_time, laps), Parts(PIECE / speed)
+        self._lap: list[Measured] = []
+        self._piece: list[Measured] = []
 
-    def add(self, tick: Measured) -> MeasuredLap | None:
-        """Takes a tick after the start of the reference; the lap, at the end of all but the last.
+    @property
+    def done(self) -> int:
+        """Laps that are complete."""
+        return self._laps.done
 
-        The controller waits for what such a lap teaches, see `LapGate` of push_mpc.
+    def add(self, tick: Measured) -> tuple[MeasuredLap | None, MeasuredLap | None]:
+        """Takes a tick after the start of the reference.
+
+        Returns:
+            The piece that ends with it, and the lap, other than the last; None if it does not end.
         """
-        self._ticks.append(tick)
-        is_last = self.done + 1 == self._laps
-        if is_last or tick.time < (self.done + 1) * self._lap_time:
-            return None
-        return self._taken()
+        self._lap.append(tick)
+        self._piece.append(tick)
+        piece = lap = None
+        if self._pieces.ends_at(tick.time):
+            # the next one begins where this one ends
+            piece, self._piece = MeasuredLap.of(self._piece), [tick]
+        if self._laps.ends_at(tick.time):
+            lap, self._lap = MeasuredLap.of(self._lap), []
+        return piece, lap
 
     def finish(self) -> MeasuredLap | None:
         """The last lap, when the run has come to its end; None if it is not the one under way."""
-        return self._taken() if self._ticks and self.done + 1 == self._laps else None
-
-    def _taken(self) -> MeasuredLap:
-        ticks, self._ticks = self._ticks, []
-        self.done += 1
-        return MeasuredLap.of(ticks)
+        ticks, self._lap = self._lap, []
+        return MeasuredLap.of(ticks) if ticks and self._laps.is_last else None

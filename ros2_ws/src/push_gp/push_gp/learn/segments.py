@@ -9,6 +9,9 @@ from push_core.physics import GRAZING, Slider
 CONTACT_GAP = 1e-3
 """Largest measured gap [m] at which the tip is taken to push."""
 
+OTHER_SIZE = 0.12
+"""Share of the size by which the object may be another than the nominal one."""
+
 JUMP = np.array([2e-3, 0.03])
 """Motion [m], [rad] of the object from one picture to the next that any push may make."""
 
@@ -61,7 +64,7 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
         slider: geometry of slider and tip.
     """
     along, _ = _in_frame(object_poses, tips - object_poses[:, :2])
-    apart = slider.tip_x - along > CONTACT_GAP
+    apart = _face(along, slider) - along > CONTACT_GAP
     steps = np.diff(object_poses, axis=0)
     moved = np.stack(
         [np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*np.diff(tips, axis=0).T)]
@@ -71,6 +74,12 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
     result = apart.copy()
     result[1:] |= apart[:-1] | jumps
     return result
+
+
+def _face(along: Array, slider: Slider) -> float:
+    """Where the tip touches [m]: its median, as far as an object of another size explains it."""
+    reach = OTHER_SIZE * 0.5 * slider.side
+    return float(np.clip(np.median(along), slider.tip_x - reach, slider.tip_x + reach))
 
 
 def _as_pushes(start: Array, end: Array, distance: float) -> PushSet:

@@ -51,11 +51,19 @@ def reference_of(message: NominalTrajectory) -> TimedReference:
     )
 
 
-def lesson_message(learned: Learned, laps: int, base: str, stamp: Time) -> Lesson:
-    """What a number of laps have taught; `base` is the id of the model before anything was."""
+def lesson_message(learned: Learned, taught: tuple[int, int], base: str, stamp: Time) -> Lesson:
+    """What laps and pieces have taught.
+
+    Args:
+        learned: the lesson.
+        taught: number of laps and of pieces that did.
+        base: id of the model before anything was taught.
+        stamp: when it was learned.
+    """
     slider, known = learned.identified.model.slider, learned.identified
     message = Lesson(
-        laps=laps,
+        laps=taught[0],
+        pieces=taught[1],
         lesson_id=learned.lesson_id(base),
         model_id=learned.model.info.model_id if learned.model else base,
         pushes=known.pushes,

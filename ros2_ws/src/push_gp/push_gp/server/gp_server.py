@@ -73,7 +73,7 @@ class GpServer(Node):  # type: ignore[misc]
         return Teacher(self, settings.mode, settings.slider, base, self._on_lesson, start)
 
     def _on_lesson(self) -> None:
-        """Serves what the last lap has taught."""
+        """Serves what the last lap or piece has taught."""
         assert self._teacher is not None
         model = self._teacher.known.model
         if model is not None:
@@ -133,8 +133,8 @@ class GpServer(Node):  # type: ignore[misc]
     def _announce(self) -> None:
         info, stamp = self._server.info, self.get_clock().now().to_msg()
         if self._teacher is not None and self._lessons is not None:
-            known, laps = self._teacher.known, self._teacher.laps
-            self._lessons.publish(lesson_message(known, laps, info.model_id, stamp))
+            known, taught = self._teacher.known, self._teacher.taught
+            self._lessons.publish(lesson_message(known, taught, info.model_id, stamp))
         self._announcements.publish(model_info_message(info, stamp))
         self.get_logger().info(
             f'serving {info.kind} model {info.model_id}: {info.points} pushes, '

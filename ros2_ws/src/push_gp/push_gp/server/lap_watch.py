@@ -28,6 +28,7 @@ class LapWatch:
         node: Node,
         mode: str,
         on_begin: Callable[[TimedReference], None],
+        on_piece: Callable[[MeasuredLap], None],
         on_lap: Callable[[MeasuredLap | None], None],
     ) -> None:
         """Subscribes.
@@ -36,9 +37,10 @@ class LapWatch:
             node: that listens.
             mode: lockstep, where every message arrives, or realtime.
             on_begin: called when a run begins.
+            on_piece: called at the end of each piece of a lap.
             on_lap: called at the end of each lap; None for a last lap that was not seen.
         """
-        self._on_begin, self._on_lap = on_begin, on_lap
+        self._on_begin, self._on_piece, self._on_lap = on_begin, on_piece, on_lap
         self._plan: NominalTrajectory | None = None
         self._collector: LapCollector | None = None
         self._states: deque[ControllerState] = deque()
@@ -85,7 +87,7 @@ class LapWatch:
             return
         if state.mode == ControllerState.ARMED and self._plan is not None:
             reference = reference_of(self._plan)
-            self._collector = LapCollector(reference.lap_time, reference.laps)
+            self._collector = LapCollector(reference.lap_time, reference.laps, reference.speed)
             self._on_begin(reference)
         if state.mode == ControllerState.DONE:
             self._on_lap(self._collector.finish() if self._collector else None)
@@ -97,7 +99,7 @@ class LapWatch:
         if self._collector is None or pose is None or tip is None:
             return
         place, turn = pose.pose.position, pose.pose.orientation
-        lap = self._collector.add(
+        piece, lap = self._collector.add(
             Measured(
                 state.reference_time,
                 state.mode == ControllerState.TRACKING,
@@ -106,6 +108,8 @@ class LapWatch:
                 state.model_id,
             )
         )
+        if piece is not None:
+            self._on_piece(piece)
         if lap is not None:
             self._on_lap(lap)
 

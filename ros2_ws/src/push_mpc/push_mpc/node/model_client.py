@@ -16,6 +16,7 @@ from rclpy.task import Future
 
 from push_mpc.loop import PreparedModel
 from push_mpc.node.conversions import lesson_of, request_of, result_of
+from push_mpc.node.lap_gate import Taught
 from push_mpc.plan import Lesson
 from push_mpc.settings import MpcSettings
 from push_mpc.table import Domain, ModelScope, Query, Table, Tabulated, Tabulation, tabulation
@@ -56,7 +57,6 @@ class ModelClient:
         ready: the newest prepared model, None before the first.
         table: its table, None before the first.
         problem: why there is no model, in words; empty if there is one.
-        laps: that have taught what is ready.
     """
 
     def __init__(self, node: Node, settings: MpcSettings, prepare: Prepare) -> None:
@@ -70,11 +70,11 @@ class ModelClient:
         self.ready: PreparedModel | None = None
         self.table: Tabulated | None = None
         self.problem = 'no model announced'
-        self.laps = 0
         self._settings, self._side = settings, settings.slider.side
         self._prepare = prepare
         self._worker = ThreadPoolExecutor(max_workers=1)
         self._pending: _Pending | None = None
+        self._handled: _Pending | None = None
         self._lesson: LessonMessage | None = None
         self._info: ModelInfo | None = None
         self._log = node.get_logger()
@@ -83,6 +83,12 @@ class ModelClient:
         if settings.learn:
             interface.LESSON.subscription(node, self._on_lesson)
         node.create_timer(POLL_PERIOD, self._send, clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+    @property
+    def taught(self) -> Taught:
+        """What has taught what is ready, or could not be used."""
+        lesson = self._handled.lesson if self._handled else None
+        return Taught(lesson.laps, lesson.pieces) if lesson else Taught()
 
     def close(self) -> None:
         """Ends the thread."""
@@ -105,8 +111,11 @@ class ModelClient:
         if info is None or lesson is None or info.model_id != lesson.model_id:
             self.problem = self.problem if self.ready else 'waiting for a model and its lesson'
             return
-        newest = self._pending.lesson if self._pending else None
-        if newest is not lesson:
+        pending = self._pending
+        if pending and pending.lesson and pending.lesson.lesson_id == lesson.lesson_id:
+            # the same once more: it may count further laps and pieces
+            pending.lesson = lesson
+        else:
             self._begin(info, lesson)
 
     def _begin(self, info: ModelInfo, lesson: LessonMessage | None) -> None:
@@ -147,7 +156,7 @@ class ModelClient:
         self.problem = f'the model cannot be used: {why}'
         self._log.error(self.problem)
         if self.ready is not None and pending.lesson is not None:
-            self.laps = pending.lesson.laps
+            self._handled = pending
 
     def _continue(self, pending: _Pending, query: Query, response: Predict.Response) -> None:
         """Feeds a response to the tabulation; prepares the model when the table is done."""
@@ -174,5 +183,5 @@ class ModelClient:
         self.table, self.problem = tabulated, ''
         # these last: the node's thread polls them
         self.ready = prepared
-        self.laps = message.laps if message else 0
+        self._handled = pending
         self._log.info(f'model {model_id} as a table of {tabulated}')

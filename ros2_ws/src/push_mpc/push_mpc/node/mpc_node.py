@@ -75,7 +75,9 @@ class MpcNode(Node):  # type: ignore[misc]
         self._output = TickOutput(self, self._settings.mode, horizon)
         self._preparation = Preparation(self._settings, self._controller)
         self._model = ModelClient(self, self._settings, self._preparation.prepare)
-        self._laps = LapGate(self._controller.plan.duration, self._settings.laps)
+        self._laps = LapGate(
+            self._controller.plan.duration, self._settings.laps, self._settings.speed
+        )
         self._postponed: Callable[[], None] | None = None
         self._recorder = RecorderWatch(self)
         self._link = (
@@ -162,8 +164,8 @@ class MpcNode(Node):  # type: ignore[misc]
 
     @property
     def _untaught(self) -> bool:
-        """Whether the last lap has not taught yet."""
-        return self._settings.learn and self._model.laps < self._laps.expected
+        """Whether the last lap or piece has not taught yet."""
+        return self._settings.learn and self._model.taught.lacks(self._laps.expected)
 
     def _go_on(self) -> None:
         """Answers poses that waited for a lesson, when that is there."""
@@ -297,7 +299,7 @@ class MpcNode(Node):  # type: ignore[misc]
         else:
             self._controller.arm()
         self._poses.restart()
-        self._laps.begin(self._model.laps)
+        self._laps.begin(self._model.taught)
 
     @property
     def _starts_here(self) -> bool:
