@@ -2,13 +2,21 @@
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
+import pytest
 from cell_command import Ended
 from push_bag.file import BagReader
 from push_bag.replay.recompute import Changes, recomputed
 from push_bag.run import RecordedRun
-from push_bringup.in_process import recorded_lessons
+from push_bringup.experiment import Experiment, LapJob
+from push_bringup.in_process import InProcessCell, recorded_lessons
+from push_gp.models import model_named
+from push_mpc.loop import FOLLOWING, Tick
+from push_mpc.plan import planned
+from push_sim.plant import Observation, Perturbation, PerturbationKind, Plant
+from push_sim.settings import SimSettings
 
 PLANT = ('-p', 'world.engine:=quasi_static', '-p', 'world.friction_pusher:=0.4')
 CIRCLE = ('--track', 'circle', '--speed', '0.15', *PLANT)
@@ -49,3 +57,46 @@ def test_lockstep_learns_as_one_process_does_and_is_computed_again_bit_for_bit(
     for run in (*runs, further):
         again = recomputed(run.folder, Changes())
         assert (again.differs.sum(), again.skipped) == (0, 0)
+
+
+def kicked(plant: Plant, _settings: SimSettings) -> None:
+    plant.perturb(Perturbation(PerturbationKind.TANGENTIAL, 0.02))
+
+
+def moved(plant: Plant, _settings: SimSettings) -> None:
+    """As by a hand, away from the tip."""
+    plant.perturb(Perturbation(PerturbationKind.NORMAL, 0.03))
+
+
+def rougher(plant: Plant, settings: SimSettings) -> None:
+    plant.change(replace(settings, world=replace(settings.world, friction_pusher=0.4)))
+
+
+@pytest.mark.parametrize('disturb', [kicked, moved, rougher])
+def test_a_disturbed_lap_recovers_and_does_not_spoil_the_next(
+    disturb: Callable[[Plant, SimSettings], None],
+) -> None:
+    laps, speed, plant = 3, 0.15, {'world.engine': 'quasi_static'}
+    job = LapJob(Experiment('eight', speed), 'gp', 'analytical', 'irb120', 0, plant, laps, True)
+    parameters = job.parameters()
+    model = model_named('analytical', parameters.gp.slider)
+    cell = InProcessCell(parameters, model, planned(parameters.mpc), learn=True)
+    lap_time = cell.controller.plan.duration / laps
+    times, errors = [], []
+
+    def on_tick(seen: Observation | None, tick: Tick, _milliseconds: float) -> None:
+        if seen is None or tick.mode not in FOLLOWING or tick.reference_time <= 0.0:
+            return
+        before = times[-1] if times else 0.0
+        if before < 1.5 * lap_time <= tick.reference_time:
+            disturb(cell.plant, parameters.sim)
+        times.append(tick.reference_time)
+        wanted = cell.controller.plan.at(tick.reference_time)[0][:2]
+        errors.append(1e3 * float(np.hypot(*(seen.truth.object_pose[:2] - wanted))))
+
+    assert not cell.run(on_tick)
+    time, error = np.array(times), np.array(errors)
+    recovered = time - 1.5 * lap_time > 0.6 / speed
+    after = error[recovered & (time < 2.0 * lap_time)].mean(), error[time > 2.0 * lap_time].mean()
+    print(disturb.__name__, 'lap 1', error[time < lap_time].mean(), 'after', after)
+    assert max(after) < 0.5

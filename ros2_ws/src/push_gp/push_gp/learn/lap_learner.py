@@ -104,7 +104,7 @@ class LapLearner:
         self._begin_lap(self.known)
         self._shift = ReferenceShift(reference)
         if self.known.is_of(reference):
-            self._shift.shift = self.known.shift
+            self._shift.start_from(self.known.shift)
         elif len(self.known.shift):
             self._best = None
             self._begin_lap(Learned(self.known.identified))
@@ -135,7 +135,7 @@ class LapLearner:
         if self._best is not None and size > WORSE * self._best.size:
             # a plant that changed must be able to become better than it is
             self._best = replace(self._best, size=math.inf)
-            self._shift.shift = self._best.learned.shift
+            self._shift.start_from(self._best.learned.shift)
             return self._begin_lap(self._best.learned)
         if self._best is None or size < self._best.size:
             self._best = _Driven(self.known, size)

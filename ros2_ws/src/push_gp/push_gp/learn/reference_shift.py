@@ -36,13 +36,16 @@ class ReferenceShift:
         half = max(1, round(SMOOTHED / reference.speed / reference.period))
         self._window = np.hanning(2 * half + 3)[1:-1]
 
+    def start_from(self, shift: Array) -> None:
+        """Goes on from another shift (n, 2), or from none (0, 2)."""
+        self.shift = self._whole(shift)
+
     def driven_by(self, shift: Array, times: Array) -> Array:
         """What to add to errors (m, 2) at times (m,) of the reference under another shift (n, 2).
 
         With it `learn` shifts those places from that shift on; (0, 2) is none.
         """
-        shift = shift if len(shift) else np.zeros_like(self.shift)
-        return np.asarray((self.shift - shift)[self._rows(times)] / GAIN)
+        return np.asarray((self.shift - self._whole(shift))[self._rows(times)] / GAIN)
 
     def learn(self, times: Array, errors: Array) -> None:
         """Shifts the reference against the errors of a lap; places without one learn nothing.
@@ -56,6 +59,9 @@ class ReferenceShift:
         mean = self._smooth(errors) / np.maximum(seen, _LEAST)
         taught = np.minimum(seen / _LEAST, 1.0)
         self.shift = np.clip(self.shift - GAIN * taught * mean, -LARGEST, LARGEST)
+
+    def _whole(self, shift: Array) -> Array:
+        return shift if len(shift) else np.zeros_like(self.shift)
 
     def _binned(self, times: Array, errors: Array) -> tuple[Array, Array]:
         """Sums of the errors (n, 2) and number of them (n, 1) at every sample of the lap."""
