@@ -4,6 +4,7 @@ import itertools
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 import pytest
@@ -189,6 +190,10 @@ class Recorder:
         state.reference = [*planned, 0.0]
         state.predicted = [*self.synthetic.predicted(self.synthetic.displaced(planned, then)), 0.0]
         state.disturbance = [0.01, -0.02, 0.3]
+        # normal, in an order of its own; the heading twice as far off as it is stated to be
+        deviations = NormalDist().inv_cdf((37 * tick % 100 + 0.5) / 100)
+        state.innovation_deviation = [2e-5, 3e-5, 1e-4]
+        state.innovation = [2e-5 * deviations, -3e-5 * deviations, 2e-4 * deviations]
         state.solve_ms, state.tick_ms, state.iterations = 0.25 + tick % 7 * 0.01, 1.0, 10
         state.solver_status, state.limited = 1, self.synthetic.limited(tick)
         if tick == self.synthetic.ticks - 1:

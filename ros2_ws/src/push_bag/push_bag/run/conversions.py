@@ -43,7 +43,7 @@ STATE_FIELDS = (
     'reference',
     *SOLVER_FIELDS,
 )
-OPTIONAL_STATE_FIELDS = {'disturbance': 3}
+OPTIONAL_STATE_FIELDS = {'disturbance': 3, 'innovation': 3, 'innovation_deviation': 3}
 
 
 def stamps(columns: Columns) -> NDArray[np.int64]:
@@ -89,11 +89,12 @@ def velocities(columns: Columns) -> Floats:
 
 
 def ticks(columns: Columns) -> Floats:
-    """Controller states (n, 20) with the columns STATE_COLUMNS."""
+    """Controller states (n, 26) with the columns STATE_COLUMNS."""
     parts = [columns['mode'], columns['reference_time'], columns['state'][:, 3]]
     parts += [columns['input'], columns['nominal_input']]
     parts += [columns[name] for name in SOLVER_FIELDS]
-    parts += [columns['predicted'][:, :2], columns['reference'][:, :2], columns['disturbance']]
+    parts += [columns['predicted'][:, :2], columns['reference'][:, :2]]
+    parts += [columns[name] for name in OPTIONAL_STATE_FIELDS]
     return np.column_stack(parts).astype(np.float64)
 
 

@@ -161,6 +161,12 @@ STATE_COLUMNS = (
     'disturbance_x',
     'disturbance_y',
     'disturbance_theta',
+    'innovation_x',
+    'innovation_y',
+    'innovation_theta',
+    'innovation_deviation_x',
+    'innovation_deviation_y',
+    'innovation_deviation_theta',
 )
 
 

@@ -139,6 +139,12 @@ def _of_ticks(run: RunSeries) -> str:
     return topic_reason(run.types, interface.CONTROLLER_STATE)
 
 
+def _of_prediction(run: RunSeries) -> str:
+    if not run.states.stamp.size:
+        return _of_ticks(run)
+    return 'too few ticks state how well they predict the next pose'
+
+
 def _of_model(run: RunSeries) -> str:
     return topic_reason(run.types, interface.MODEL_INFO)
 
@@ -159,6 +165,7 @@ REASONS: Mapping[str, Callable[[RunSeries], str]] = {
     'holds': _of_ticks,
     'pauses': _of_ticks,
     'limited': _of_ticks,
+    'prediction': _of_prediction,
 }
 """Figures that a run can lack, and why it does."""
 

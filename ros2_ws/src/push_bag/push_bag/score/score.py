@@ -23,6 +23,7 @@ from push_bag.run import Floats, Reference, RunSeries, read_starts
 from push_bag.score.contact import contact, loss_intervals
 from push_bag.score.laps import per_lap
 from push_bag.score.message_counts import foreign_commands, message_counts
+from push_bag.score.prediction import prediction
 from push_bag.score.reasons import left_out, other_topics, reasons
 from push_bag.score.timing import pauses, timing
 from push_bag.score.tracking import (
@@ -84,6 +85,7 @@ def score_series(run: RunSeries) -> dict[str, Any]:
         'holds': holds(run),
         'pauses': pauses(run),
         'limited': limited(run),
+        'prediction': prediction(run),
         'messages': message_counts(run),
         'left_out': left_out(run),
         'parameter_changes': parameter_changes(run),
