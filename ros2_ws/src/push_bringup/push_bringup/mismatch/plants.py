@@ -15,6 +15,7 @@ _FAST = {
     'actuator.speed_limit': 1.0,
     'normal_speed_limit': 1.0,
     'tangential_speed_limit': 0.6,
+    'guard.tracking_error': 0.1,
 }
 
 
