@@ -14,9 +14,7 @@ demo: setup  ## push the square once round the 8-track, record and score it (DAT
 	@DATA='$(DATA)' scripts/in_env scripts/demo.sh
 
 test: setup  ## run every test: of each package, then of the cell as a whole
-	@$(PYTEST) -n auto --dist loadfile -m 'not processes' $(UNIT_TESTS)
-	@$(PYTEST) -m processes $(UNIT_TESTS)
-	@$(PYTEST) tests
+	@$(PYTEST) -n auto --dist loadfile $(UNIT_TESTS) tests
 
 matrix:  ## demo and tests on every Python found, in clones of their own (PYTHONS='3.12 3.13' picks them)
 	@PYTHONS='$(PYTHONS)' scripts/matrix.sh

@@ -1,12 +1,11 @@
-"""What tests that start nodes need: a DDS domain of their own, cores, an end of processes."""
+"""What tests that start nodes need: a DDS domain of their own, an end of processes."""
 
 import fcntl
 import itertools
 import os
 import subprocess
 import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 from typing import IO
 
@@ -39,14 +38,6 @@ def starts_nodes(request: pytest.FixtureRequest) -> bool:
     """Whether a test of the requesting file is marked as one that starts nodes."""
     tests = [item for item in request.session.items if item.path == request.path]
     return any(test.get_closest_marker('processes') for test in tests)
-
-
-@contextmanager
-def one_at_a_time() -> Iterator[None]:
-    """Waits for other test processes of this checkout; `colcon test` has one a package."""
-    with Path(__file__).open(encoding='utf-8') as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield
 
 
 def kill_all(processes: Iterable[subprocess.Popen[str]]) -> None:

@@ -1,12 +1,9 @@
 """Test processes that run at the same time keep out of each other's way."""
 
 import os
-import select
 import subprocess
 import sys
 from pathlib import Path
-
-from node_tests import one_at_a_time
 
 HELPERS = Path(__file__).parent
 
@@ -38,12 +35,3 @@ def test_a_domain_is_free_again_when_its_process_has_ended() -> None:
     for _ in range(3):
         process = python('print(len({own_domain() for _ in range(100)}))')
         assert process.communicate()[0] == '100\n'
-
-
-def test_files_that_start_nodes_wait_for_each_other() -> None:
-    with one_at_a_time():
-        other = python('print("asks")\nwith one_at_a_time(): print("alone")')
-        assert other.stdout is not None
-        assert other.stdout.readline() == 'asks\n'
-        assert select.select([other.stdout], [], [], 0.5)[0] == []
-    assert other.communicate()[0] == 'alone\n'

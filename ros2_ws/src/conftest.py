@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
-from node_tests import one_at_a_time, own_domain, starts_nodes
+from node_tests import own_domain, starts_nodes
 
 # how long an example takes is up to the machine
 settings.register_profile('untimed', deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -28,11 +28,11 @@ def _own_domain() -> Iterator[None]:
 
 
 @pytest.fixture(scope='module', autouse=True)
-def _nodes_alone(request: pytest.FixtureRequest, _own_domain: None) -> Iterator[None]:
-    """Gives each file of tests that start nodes a further domain, and its turn at the cores."""
+def _nodes_apart(request: pytest.FixtureRequest, _own_domain: None) -> Iterator[None]:
+    """Gives each file of tests that start nodes a further domain."""
     if not starts_nodes(request):
         yield
         return
-    with pytest.MonkeyPatch.context() as patch, one_at_a_time():
+    with pytest.MonkeyPatch.context() as patch:
         patch.setenv('ROS_DOMAIN_ID', own_domain())
         yield

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -133,20 +134,27 @@ def forget(client: Client) -> None:
     client.perturbations.clear()
 
 
-def start_node(*parameters: str) -> subprocess.Popen[str]:
+@contextmanager
+def running(*parameters: str) -> Iterator[subprocess.Popen[str]]:
+    """A node that ends with the test, also where that fails."""
     arguments = [argument for parameter in parameters for argument in ('-p', parameter)]
     command = [sys.executable, '-m', 'push_sim.node.sim_node', '--ros-args', *arguments]
-    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.wait()
 
 
 @pytest.fixture(scope='module')
 def lockstep(client: Client) -> Iterator[None]:
     """A node that all lockstep tests share."""
-    process = start_node('mode:=lockstep')
-    client.wait(lambda: client.node.count_publishers('perturbation') > 0)
-    yield
-    process.terminate()
-    process.communicate(timeout=PATIENCE)
+    with running('mode:=lockstep') as process:
+        client.wait(lambda: client.node.count_publishers('perturbation') > 0)
+        yield
+        process.terminate()
+        process.communicate(timeout=PATIENCE)
 
 
 def command(stamp, velocity) -> TwistStamped:
@@ -162,36 +170,36 @@ def age(pose: PoseStamped) -> int:
 
 
 def test_realtime_poses_come_on_a_grid_of_10_ms_until_sigterm(client) -> None:
-    process = start_node()
-    assert client.reset().success
-    client.poses.clear()
-    # late wake-ups of a busy machine skip poses, but the plant comes up with the clock again
-    client.wait(lambda: len(client.poses) >= 50 and 0 < age(client.poses[-1]) < 500_000_000)
-    steps = np.diff([to_nanoseconds(pose.header.stamp) for pose in client.poses])
-    assert np.all(steps > 0)
-    assert np.all(steps % 10_000_000 == 0)
-    assert client.poses[-1].pose.position.x == pytest.approx(OBJECT_POSE[0], abs=1e-3)
-    process.send_signal(signal.SIGTERM)
-    assert process.wait(timeout=PATIENCE) == 0
-    assert 'Traceback' not in process.communicate()[1]
-    client.wait(lambda: client.node.count_publishers('object_pose') == 0)
+    with running() as process:
+        assert client.reset().success
+        client.poses.clear()
+        # late wake-ups of a busy machine skip poses, but the plant comes up with the clock again
+        client.wait(lambda: len(client.poses) >= 50 and 0 < age(client.poses[-1]) < 500_000_000)
+        steps = np.diff([to_nanoseconds(pose.header.stamp) for pose in client.poses])
+        assert np.all(steps > 0)
+        assert np.all(steps % 10_000_000 == 0)
+        assert client.poses[-1].pose.position.x == pytest.approx(OBJECT_POSE[0], abs=1e-3)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(timeout=PATIENCE) == 0
+        assert 'Traceback' not in process.communicate()[1]
+        client.wait(lambda: client.node.count_publishers('object_pose') == 0)
 
 
 def test_a_second_source_of_commands_makes_the_driver_brake_and_is_named(client) -> None:
-    process = start_node('profile:=ideal')
-    assert client.reset().success
-    client.answer = lambda pose: command(pose.header.stamp, (0.02, 0.0))
-    client.wait(lambda: client.speed() > 0.015)
-    teleop = Node('teleop')
-    publisher = teleop.create_publisher(TwistStamped, 'pusher_velocity_cmd', COMMAND)
-    client.wait(lambda: client.speed() < 1e-6)
-    status = 'pusher_velocity_cmd has 2 publishers: /client, /teleop; the driver brakes'
-    client.wait(lambda: status in client.problems)
-    teleop.destroy_publisher(publisher)
-    client.wait(lambda: client.speed() > 0.015)
-    process.terminate()
-    assert status in process.communicate(timeout=PATIENCE)[1]
-    client.wait(lambda: client.node.count_publishers('object_pose') == 0)
+    with running('profile:=ideal') as process:
+        assert client.reset().success
+        client.answer = lambda pose: command(pose.header.stamp, (0.02, 0.0))
+        client.wait(lambda: client.speed() > 0.015)
+        teleop = Node('teleop')
+        publisher = teleop.create_publisher(TwistStamped, 'pusher_velocity_cmd', COMMAND)
+        client.wait(lambda: client.speed() < 1e-6)
+        status = 'pusher_velocity_cmd has 2 publishers: /client, /teleop; the driver brakes'
+        client.wait(lambda: status in client.problems)
+        teleop.destroy_publisher(publisher)
+        client.wait(lambda: client.speed() > 0.015)
+        process.terminate()
+        assert status in process.communicate(timeout=PATIENCE)[1]
+        client.wait(lambda: client.node.count_publishers('object_pose') == 0)
 
 
 def test_lockstep_gives_the_trajectory_of_the_loop_without_dds(client, lockstep, weave) -> None:
@@ -299,8 +307,8 @@ def test_what_is_no_plan_leaves_the_one_before(client, lockstep) -> None:
 
 
 def test_a_bad_parameter_fails_the_start_with_one_line_that_names_it() -> None:
-    process = start_node('world.substep:=0.003')
-    _, errors = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 2
-    assert errors.count('\n') == 1
-    assert 'world.substep' in errors
+    with running('world.substep:=0.003') as process:
+        _, errors = process.communicate(timeout=PATIENCE)
+        assert process.returncode == 2
+        assert errors.count('\n') == 1
+        assert 'world.substep' in errors
