@@ -111,6 +111,22 @@ def test_an_object_that_is_moved_by_hand_ends_a_segment():
     assert np.abs(cut.displacement[:, :2]).max() < 1.2 * DISTANCE
 
 
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf, 1e16, 1e308])
+@pytest.mark.parametrize('column', range(5))
+def test_what_cannot_have_been_measured_ends_a_segment(value, column):
+    rows = np.column_stack(lap_of_a_cone(SmoothCone(NOMINAL, DISTANCE)))
+    whole = segments(rows[:, :3], rows[:, 3:], NOMINAL, DISTANCE)
+    rows[200, column] = value
+    cut = segments(rows[:, :3], rows[:, 3:], NOMINAL, DISTANCE)
+    assert len(cut) >= len(whole) - 2
+    assert np.abs(cut.displacement[:, :2]).max() < 1.2 * DISTANCE
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, 1e308])
+def test_a_lap_of_nothing_that_can_have_been_measured_has_no_segment(value):
+    assert len(segments(np.full((9, 3), value), np.full((9, 2), value), NOMINAL, DISTANCE)) == 0
+
+
 def test_a_tip_that_does_not_touch_makes_no_segment():
     poses, tips = lap_of_a_cone(SmoothCone(NOMINAL, DISTANCE))
     assert len(segments(poses, tips - [0.01, 0.0], NOMINAL, DISTANCE)) == 0

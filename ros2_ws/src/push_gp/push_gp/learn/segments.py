@@ -15,6 +15,9 @@ OTHER_SIZE = 0.12
 JUMP = np.array([2e-3, 0.03])
 """Motion [m], [rad] of the object from one picture to the next that any push may make."""
 
+FARTHEST = 1e3
+"""Largest value of a pose [m], [rad] or of the tip [m] that can have been measured."""
+
 JUMP_RATIO = 5.0
 """A larger motion is a jump if it is so many times the median: speed and noise set that."""
 
@@ -31,7 +34,8 @@ def segments(object_poses: Array, tips: Array, slider: Slider, distance: float) 
         distance: travel of the tip in each push [m].
     """
     poses = np.array(object_poses, dtype=float).reshape(-1, 3)
-    poses[:, 2] = np.unwrap(poses[:, 2])
+    known = np.abs(poses[:, 2]) < FARTHEST
+    poses[known, 2] = np.unwrap(poses[known, 2])
     starts, ends = [], []
     for run in _pushing_runs(poses, tips, slider):
         moved = np.hypot(*np.diff(tips[run], axis=0).T)
@@ -63,12 +67,14 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
         tips: (m, 2) positions of the tip [m].
         slider: geometry of slider and tip.
     """
-    along, _ = _in_frame(object_poses, tips - object_poses[:, :2])
-    apart = _face(along, slider) - along > CONTACT_GAP
-    steps = np.diff(object_poses, axis=0)
-    moved = np.stack(
-        [np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*np.diff(tips, axis=0).T)]
-    )
+    rows = np.column_stack((object_poses, tips))
+    # where one is not a number, the comparison is false
+    unknown = ~(np.abs(rows) < FARTHEST).all(axis=1)
+    rows[unknown] = 0.0
+    along, _ = _in_frame(rows, rows[:, 3:] - rows[:, :2])
+    apart = unknown | (_face(along[~unknown], slider) - along > CONTACT_GAP)
+    steps = np.diff(rows, axis=0)
+    moved = np.stack([np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*steps[:, 3:].T)])
     usual = JUMP_RATIO * np.median(moved, axis=1, keepdims=True)
     jumps = (moved > np.maximum(usual, [[JUMP[0]], [JUMP[1]], [JUMP[0]]])).any(axis=0)
     result = apart.copy()
@@ -78,6 +84,8 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
 
 def _face(along: Array, slider: Slider) -> float:
     """Where the tip touches [m]: its median, as far as an object of another size explains it."""
+    if not along.size:
+        return slider.tip_x
     reach = OTHER_SIZE * 0.5 * slider.side
     return float(np.clip(np.median(along), slider.tip_x - reach, slider.tip_x + reach))
 
