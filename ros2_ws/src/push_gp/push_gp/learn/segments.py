@@ -72,7 +72,7 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
     unknown = ~(np.abs(rows) < FARTHEST).all(axis=1)
     rows[unknown] = 0.0
     along, _ = _in_frame(rows, rows[:, 3:] - rows[:, :2])
-    apart = unknown | (_face(along[~unknown], slider) - along > CONTACT_GAP)
+    apart: NDArray[np.bool_] = unknown | (_face(along[~unknown], slider) - along > CONTACT_GAP)
     steps = np.diff(rows, axis=0)
     moved = np.stack([np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*steps[:, 3:].T)])
     usual = JUMP_RATIO * np.median(moved, axis=1, keepdims=True)
