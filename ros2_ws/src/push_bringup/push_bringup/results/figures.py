@@ -98,6 +98,7 @@ _FIGURES = {
     'training_size': _sizes,
     'ablation': _ablation,
     'mismatch': _mismatch,
+    'learning': _mismatch,
     'solver_gp': _solvers,
     'solver_analytical': _solvers,
     'real_time': _real_time,

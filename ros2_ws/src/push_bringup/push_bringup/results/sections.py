@@ -81,6 +81,20 @@ SECTIONS = (
         ('--seeds', '1'),
     ),
     Section(
+        'learning',
+        'Plants that the controller learns',
+        'The same plants in runs of six laps that learn (docs/control.md): errors of the first, '
+        'the second and the sixth lap. In the first one the motion cone is identified from every '
+        '50 mm of path on, in the later ones the reference is shifted too.',
+        'mismatch',
+        (
+            *('--seeds', '1', '--laps', '6', '--learn', '--rows', 'home'),
+            *('friction_0.1', 'friction_0.3', 'friction_0.4', 'friction_0.6', 'rim', 'centred'),
+            *('support_28', 'support_60', 'varies_0.2', 'varies_0.3', 'smaller', 'larger'),
+            *('noise_0.5', 'webcam', 'half_lost'),
+        ),
+    ),
+    Section(
         'solver_gp',
         'The QP solver: GP controller',
         'All QPs of a lap with perturbations: update and solve, CPU time of one thread.',
