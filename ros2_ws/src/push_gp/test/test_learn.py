@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from push_core.data import P_Y_LIMIT, PushSet
-from push_core.physics import Slider
+from push_core.geometry import displacement_of, twist_of
+from push_core.physics import Slider, with_inertia
 from push_gp.learn import ConeLearner, identified, segments
 from push_gp.learn.cone_learner import loss
 from push_gp.learn.identification import LARGEST_CHANGE, huber_roots
@@ -36,6 +37,35 @@ def test_a_cone_is_identified_from_its_own_pushes(friction, radius):
     found = identified(pushes_of(truth), NOMINAL)
     assert found.model.slider.friction_pusher == pytest.approx(friction, rel=0.05)
     assert found.model.slider.support_radius == pytest.approx(radius, rel=0.01)
+
+
+def pushes_at_speed(slider: Slider, speed: float) -> PushSet:
+    """The same pushes, of an object whose inertia counts."""
+    slow = pushes_of(slider)
+    cone = SmoothCone(slider, DISTANCE)
+    twists = twist_of(*cone.evaluate(slow.p_y, slow.beta))
+    moved, _ = displacement_of(*with_inertia(slider, speed, slow.p_y, *twists))
+    return PushSet(slow.p_y, slow.beta, moved, DISTANCE)
+
+
+@pytest.mark.parametrize('speed', [0.2, 0.3])
+def test_the_cone_of_slow_pushes_is_identified_from_fast_ones(speed):
+    truth = replace(NOMINAL, friction_pusher=0.2, support_radius=0.034)
+    pushes = pushes_at_speed(truth, speed)
+    found = identified(pushes, NOMINAL, speed)
+    assert found.model.slider.friction_pusher == pytest.approx(0.2, rel=0.05)
+    assert found.model.slider.support_radius == pytest.approx(0.034, rel=0.01)
+    assert loss(found.model, pushes, speed) < 0.1 * loss(found.model, pushes)
+    # without inertia in the fit a larger support radius takes its place
+    assert identified(pushes, NOMINAL).model.slider.support_radius > 0.037
+
+
+def test_a_learner_that_knows_the_speed_learns_the_cone_of_slow_pushes():
+    truth = replace(NOMINAL, friction_pusher=0.2, support_radius=0.034)
+    learner = ConeLearner(NOMINAL)
+    learner.speed = 0.3
+    learner.learn(pushes_at_speed(truth, 0.3))
+    assert learner.known.support_radius[0] == pytest.approx(0.034, rel=0.01)
 
 
 def test_outliers_hardly_change_what_is_identified():

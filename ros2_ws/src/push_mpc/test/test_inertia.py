@@ -1,12 +1,15 @@
 """The model at the speed of a plan, against the laws of motion of an object on an arc."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from push_core.physics import Slider
 from push_core.physics.motion_cone import MotionCone
-from push_mpc.table import Table, with_inertia
+from push_mpc.loop.prepared_model import at_speed
+from push_mpc.settings import mpc_settings
+from push_mpc.table import Table, table_at_speed
 from push_mpc.table.surrogate import Grid
 from scipy.optimize import fsolve
 
@@ -46,7 +49,7 @@ def balanced(p_y: float, beta: float, speed: float) -> np.ndarray:
 @pytest.mark.parametrize(('p_y', 'beta'), [(0.0, 1.4), (0.004, 1.5), (-0.006, 1.8), (0.002, 1.2)])
 def test_a_fast_object_turns_as_newton_and_euler_say(slow, p_y, beta) -> None:
     expected = balanced(p_y, beta, SPEED)
-    found = np.array(with_inertia(slow, SLIDER, SPEED).rate(p_y, beta))
+    found = np.array(table_at_speed(slow, SLIDER, SPEED).rate(p_y, beta))
     without = np.array(slow.rate(p_y, beta))
     # e stands for v t_x / (mu g) with the speed of the plan, not that of this push
     assert np.abs(found - expected)[2] < 0.12 * np.abs(without - expected)[2]
@@ -55,13 +58,13 @@ def test_a_fast_object_turns_as_newton_and_euler_say(slow, p_y, beta) -> None:
 
 def test_the_contact_point_moves_with_the_tip_at_any_speed(slow) -> None:
     p_y, beta = GRID.points()
-    rates, _ = with_inertia(slow, SLIDER, SPEED).evaluate(p_y, beta)
+    rates, _ = table_at_speed(slow, SLIDER, SPEED).evaluate(p_y, beta)
     assert rates[:, 0] - p_y * rates[:, 2] == pytest.approx(np.sin(beta), abs=1e-9)
     assert rates[:, 1] + SLIDER.p_x * rates[:, 2] == pytest.approx(np.cos(beta), abs=1e-9)
 
 
 def test_the_jacobian_is_the_derivative_of_the_rates(slow) -> None:
-    fast, step = with_inertia(slow, SLIDER, SPEED), 1e-6
+    fast, step = table_at_speed(slow, SLIDER, SPEED), 1e-6
     p_y, beta = np.array([-0.0101, 0.0033, 0.0171]), np.array([1.213, 1.577, 1.911])
     _, jacobian = fast.evaluate(p_y, beta)
     by_p_y = fast.evaluate(p_y + step, beta)[0] - fast.evaluate(p_y - step, beta)[0]
@@ -76,5 +79,26 @@ def test_the_jacobian_is_the_derivative_of_the_rates(slow) -> None:
 
 def test_a_slow_plan_leaves_the_model_alone(slow) -> None:
     p_y, beta = GRID.points()
-    rates, _ = with_inertia(slow, SLIDER, 1e-4).evaluate(p_y, beta)
+    rates, _ = table_at_speed(slow, SLIDER, 1e-4).evaluate(p_y, beta)
     assert rates == pytest.approx(slow.evaluate(p_y, beta)[0], abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('controller', 'identified', 'speed', 'changed'),
+    [
+        ('gp', False, 0.2, True),
+        ('gp', True, 0.2, True),
+        ('gp', True, 0.08, False),
+        ('analytical', True, 0.2, True),
+        ('analytical', False, 0.2, False),
+    ],
+)
+def test_what_laps_identified_has_inertia_at_speed_with_every_controller(
+    slow, controller, identified, speed, changed
+) -> None:
+    settings = replace(mpc_settings('irb120'), controller=controller)
+    slider = Slider()
+    table, fast = at_speed(slow, settings, slider, speed, identified=identified)
+    assert (table is not slow) == changed
+    assert (fast.support_radius > slider.support_radius) == changed
+    assert (fast.friction_pusher > slider.friction_pusher) == changed

@@ -1,6 +1,7 @@
 """Mechanics of pushing: slider, limit surface, contact, motion cone, actuator, speed limits."""
 
 from push_core.physics.actuator import ACTUATORS, Actuator, ActuatorSettings, Pair
+from push_core.physics.inertia import INERTIA_FROM, slider_at_speed, with_inertia
 from push_core.physics.limit_surface import GRAVITY, LimitSurface, uniform_pressure_radius
 from push_core.physics.motion_cone import GRAZING, ContactMode, MotionCone, contact_jacobian
 from push_core.physics.point_contact import (
@@ -11,12 +12,14 @@ from push_core.physics.point_contact import (
     twist_of_force,
 )
 from push_core.physics.safety import LIMIT_NAMES, NOT_FINITE, SafetyLimits, limit, slowed
-from push_core.physics.slider import Slider
+from push_core.physics.slider import HIGHEST_FRICTION, Slider
 
 __all__ = [
     'ACTUATORS',
     'GRAVITY',
     'GRAZING',
+    'HIGHEST_FRICTION',
+    'INERTIA_FROM',
     'LIMIT_NAMES',
     'NOT_FINITE',
     'Actuator',
@@ -30,10 +33,12 @@ __all__ = [
     'contact_jacobian',
     'limit',
     'mobility',
+    'slider_at_speed',
     'sliding_force',
     'slip_sign',
     'slowed',
     'sticking_force',
     'twist_of_force',
     'uniform_pressure_radius',
+    'with_inertia',
 ]

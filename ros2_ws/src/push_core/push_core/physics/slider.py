@@ -7,6 +7,9 @@ import numpy as np
 from push_core.common import setting, validate
 from push_core.geometry import Array, to_body, to_world
 
+HIGHEST_FRICTION = 2.0
+"""A tip that always sticks cannot tell it from a lower one."""
+
 
 @dataclass(frozen=True)
 class Slider:
@@ -21,7 +24,9 @@ class Slider:
     side: float = setting(0.09, 'side of the square', unit='m', low=0.01, high=1.0)
     mass: float = setting(0.827, 'mass of the square', unit='kg', low=0.01, high=100.0)
     friction_ground: float = setting(0.35, 'friction between square and table', low=0.01, high=2.0)
-    friction_pusher: float = setting(0.3, 'friction between square and tip', low=0.0, high=2.0)
+    friction_pusher: float = setting(
+        0.3, 'friction between square and tip', low=0.0, high=HIGHEST_FRICTION
+    )
     support_radius: float = setting(
         0.031, 'largest friction moment over largest friction force', unit='m', low=1e-3, high=1.0
     )

@@ -19,6 +19,7 @@ from push_gp.learn.identification import (
     PRIOR_WIDTH,
     STRETCH,
     Identified,
+    expected_motion,
     huber_roots,
     identified,
 )
@@ -65,6 +66,7 @@ class ConeLearner:
 
     Attributes:
         known: the cone so far; the nominal one before the first push.
+        speed: of the object in the pushes [m/s], zero where its inertia does not count.
     """
 
     def __init__(
@@ -82,7 +84,7 @@ class ConeLearner:
         """
         unknown = Identified(SmoothCone(nominal, distance), np.diag(PRIOR_WIDTH**2), 0)
         self.known = known or unknown
-        self._nominal = nominal
+        self._nominal, self.speed = nominal, 0.0
         self._laps: deque[PushSet] = deque(maxlen=MEMORY)
         self._pieces: deque[PushSet] = deque(maxlen=MOST)
         self._settled, self._used = known is not None and known.pushes > 0, 0
@@ -100,8 +102,8 @@ class ConeLearner:
         together = _joined(self._pieces)
         if not self._is_worth(together):
             return False
-        trial = identified(together, self._nominal)
-        error = loss(trial.model, together)
+        trial = identified(together, self._nominal, self.speed)
+        error = loss(trial.model, together, self.speed)
         another = self._settled and self._is_another(error, together)
         if another:
             self._settled, self._used = False, len(together)
@@ -114,7 +116,7 @@ class ConeLearner:
         """Whether a cone of these pushes may be another one; identifying it takes a while."""
         if self._settled:
             enough = len(self._pieces) == RECENT and len(pushes) >= FEWEST
-            return enough and loss(self.known.model, pushes) > CHANGED[1]
+            return enough and loss(self.known.model, pushes, self.speed) > CHANGED[1]
         if len(pushes) < max(FEWEST_OF_PIECES, GROWTH * self._used):
             return False
         self._used = len(pushes)
@@ -132,16 +134,16 @@ class ConeLearner:
         self._laps.append(pushes)
         stretch = np.arange(len(pushes)) // STRETCH
         unseen = np.flatnonzero(stretch % HELD_OUT == HELD_OUT - 1)
-        trial = identified(_all_of(self._laps, without=unseen), self._nominal)
+        trial = identified(_all_of(self._laps, without=unseen), self._nominal, self.speed)
         held_out = pushes.take(unseen)
-        error = loss(trial.model, held_out)
-        if error < NOISY and error <= loss(self.known.model, held_out):
-            self.known = identified(_joined(self._laps), self._nominal)
+        error = loss(trial.model, held_out, self.speed)
+        if error < NOISY and error <= loss(self.known.model, held_out, self.speed):
+            self.known = identified(_joined(self._laps), self._nominal, self.speed)
         return self.known
 
     def _is_another(self, own_loss: float, recent: PushSet) -> bool:
         factor, more = CHANGED
-        return loss(self.known.model, recent) > factor * own_loss + more
+        return loss(self.known.model, recent, self.speed) > factor * own_loss + more
 
     def _approach(self, found: Identified) -> None:
         """Moves the known cone towards one, if it is another."""
@@ -172,10 +174,10 @@ def log_ratio(before: Identified, after: Identified) -> Array:
     )
 
 
-def loss(model: SmoothCone, pushes: PushSet) -> float:
+def loss(model: SmoothCone, pushes: PushSet, speed: float = 0.0) -> float:
     """Mean Huber loss of a cone on pushes, in units of `MISFIT` of the distance."""
     unit = np.array([1.0, 1.0, 1.0 / HALF_FACE]) * pushes.distance * MISFIT
-    expected, _ = model.evaluate(pushes.p_y, pushes.beta)
+    expected = expected_motion(model, pushes, speed)
     return float(np.mean(huber_roots((pushes.displacement - expected) / unit) ** 2))
 
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from push_core.data import HALF_FACE, PushSet
-from push_core.geometry import Array
-from push_core.physics import Slider
+from push_core.geometry import Array, displacement_of, twist_of
+from push_core.physics import HIGHEST_FRICTION, Slider, with_inertia
 from scipy.optimize import OptimizeResult, least_squares
 
 from push_gp.models import SmoothCone
@@ -30,9 +30,6 @@ STRETCH = 8
 
 STARTS = (0.0, -1.2, -0.6, 0.6, 1.2)
 """Logarithms of the friction, the best of which the search starts from: the loss has valleys."""
-
-HIGHEST_FRICTION = 2.0
-"""Of any slider; a tip that always sticks cannot tell it from a lower one."""
 
 LONGEST_SEARCH = 30
 """Evaluations of the loss after which the search ends where it is."""
@@ -71,23 +68,24 @@ class Identified:
         return value, value * math.sqrt(self.covariance[1, 1])
 
 
-def identified(pushes: PushSet, nominal: Slider) -> Identified:
+def identified(pushes: PushSet, nominal: Slider, speed: float = 0.0) -> Identified:
     """The motion cone that a prior about the nominal one and pushes in a row tell of.
 
     Args:
         pushes: in the order of time; none leave the nominal cone.
         nominal: slider with the most likely parameters before any push.
+        speed: of the object in the pushes whose inertia counts [m/s].
     """
-    found = _search(pushes, nominal)
+    found = _search(pushes, nominal, speed)
     model = _cone(found.x, nominal, pushes.distance)
     return Identified(model, _covariance(found), len(pushes))
 
 
-def _search(pushes: PushSet, nominal: Slider) -> OptimizeResult:
+def _search(pushes: PushSet, nominal: Slider, speed: float) -> OptimizeResult:
     unit = np.array([1.0, 1.0, 1.0 / HALF_FACE]) * pushes.distance * MISFIT
 
     def weighted(logarithms: Array) -> Array:
-        expected, _ = _cone(logarithms, nominal, pushes.distance).evaluate(pushes.p_y, pushes.beta)
+        expected = expected_motion(_cone(logarithms, nominal, pushes.distance), pushes, speed)
         residuals = (pushes.displacement - expected) / unit
         return np.concatenate((huber_roots(residuals).ravel(), logarithms / PRIOR_WIDTH))
 
@@ -100,6 +98,15 @@ def _search(pushes: PushSet, nominal: Slider) -> OptimizeResult:
         diff_step=DIFFERENCE,
         max_nfev=LONGEST_SEARCH,
     )
+
+
+def expected_motion(cone: SmoothCone, pushes: PushSet, speed: float) -> Array:
+    """Displacements (n, 3) in pushes at a speed [m/s] by a cone of slow ones."""
+    mean, jacobian = cone.evaluate(pushes.p_y, pushes.beta)
+    if speed <= 0.0:
+        return mean
+    fast = with_inertia(cone.slider, speed, pushes.p_y, *twist_of(mean, jacobian))
+    return displacement_of(*fast)[0]
 
 
 def huber_roots(residuals: Array) -> Array:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 from push_core.geometry import Array
-from push_core.physics import Slider
+from push_core.physics import INERTIA_FROM, Slider
 
 from push_gp.learn.cone_learner import FEWEST, ConeLearner, log_ratio
 from push_gp.learn.identification import Identified
@@ -101,6 +101,8 @@ class LapLearner:
     def begin(self, reference: TimedReference) -> None:
         """A run begins, at rest; a shift of another reference is forgotten."""
         self._reference = reference
+        fast = reference.speed >= INERTIA_FROM
+        self._cone.speed = reference.speed if fast else 0.0
         self._begin_lap(self.known)
         self._shift = ReferenceShift(reference)
         if self.known.is_of(reference):

@@ -95,13 +95,18 @@ class Controller:
             lesson: what laps have taught, None before the first.
         """
         lesson = lesson or Lesson()
-        if lesson.slider is None:
-            table = at_speed(table, self.settings, self._slider, self.track_plan.speed)
+        known = lesson.slider
+        table, slider = at_speed(
+            table,
+            self.settings,
+            known or self._slider,
+            self.track_plan.speed,
+            identified=known is not None,
+        )
         plan = lesson.reference(self.track_plan)
         if self.settings.consistent_plan:
             motion = TravelMotion(table, self._slider.tip_x)
-            plan = agreeing_plan(plan, motion, self._slider, lesson.slider) or plan
-        slider = lesson.slider or self._slider
+            plan = agreeing_plan(plan, motion, self._slider, slider if known else None) or plan
         staged = self._tracker.staged(table, plan, slider)
         return PreparedModel(table, plan, staged, model_id, slider)
 

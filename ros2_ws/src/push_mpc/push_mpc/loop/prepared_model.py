@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass, replace
 
-from push_core.physics import Slider
+from push_core.physics import INERTIA_FROM, Slider, slider_at_speed
 
 from push_mpc.plan import Placement, Plan
 from push_mpc.qp import StagedPlan
 from push_mpc.settings import CONTROLLERS, ControllerSettings
-from push_mpc.table import Table, with_inertia
+from push_mpc.table import Table, table_at_speed
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,16 @@ class PreparedModel:
         )
 
 
-def at_speed(table: Table, settings: ControllerSettings, slider: Slider, speed: float) -> Table:
-    """A model of slow pushes as the settings want it at a speed [m/s]; see `with_inertia`."""
+def at_speed(
+    table: Table, settings: ControllerSettings, slider: Slider, speed: float, identified: bool
+) -> tuple[Table, Slider]:
+    """Model and slider of slow pushes as they are at a speed [m/s]; see `with_inertia`.
+
+    What laps have identified always has the inertia that was taken from their pushes. The nominal
+    slider of the Family of Modes is fitted to pushes of little rotation, and goes without.
+    """
     trained = CONTROLLERS[settings.controller].trained_model
-    if not trained or speed < settings.inertia_from:
-        return table
-    return with_inertia(table, slider, speed)
+    lowest = INERTIA_FROM if identified else settings.inertia_from
+    if not (trained or identified) or speed < lowest:
+        return table, slider
+    return table_at_speed(table, slider, speed), slider_at_speed(slider, speed)

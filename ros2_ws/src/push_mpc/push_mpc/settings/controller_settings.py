@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from push_core.common import nested, setting, validate
-from push_core.physics import ActuatorSettings, SafetyLimits
+from push_core.physics import INERTIA_FROM, ActuatorSettings, SafetyLimits
 
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.guard_settings import GuardSettings
@@ -118,7 +118,7 @@ class ControllerSettings:
         high=1.0,
     )
     inertia_from: float = setting(
-        0.16,
+        INERTIA_FROM,
         'speed of the plan from which the model of gp has the inertia of the object',
         unit='m/s',
         low=0.0,

@@ -1,7 +1,7 @@
 """The model as a bicubic table, and how it is filled from a model server."""
 
 from push_mpc.table.domain import Domain
-from push_mpc.table.inertia import with_inertia
+from push_mpc.table.inertia import table_at_speed
 from push_mpc.table.surrogate import Table
 from push_mpc.table.tabulation import (
     ModelScope,
@@ -20,6 +20,6 @@ __all__ = [
     'Table',
     'Tabulated',
     'Tabulation',
+    'table_at_speed',
     'tabulation',
-    'with_inertia',
 ]
