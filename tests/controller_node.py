@@ -172,16 +172,24 @@ def _pose(stamp: int, x: float, y: float) -> PoseStamped:
 
 
 @pytest.fixture
-def make_cell(monkeypatch: pytest.MonkeyPatch) -> Iterator[type[Cell]]:
-    """Makes cells that no other test sees: an executor keeps its node in the graph."""
+def make_cell(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., Cell]]:
+    """Makes cells that no other test sees."""
     monkeypatch.setenv('ROS_DOMAIN_ID', own_domain())
     rclpy.init()
-    yield Cell
+    made: list[Cell] = []
+
+    def make(*arguments: QoSProfile) -> Cell:
+        made.append(Cell(*arguments))
+        return made[-1]
+
+    yield make
+    for cell in made:
+        cell.spinner.close()
     rclpy.try_shutdown()
 
 
 @pytest.fixture
-def cell(make_cell: type[Cell]) -> Cell:
+def cell(make_cell: Callable[..., Cell]) -> Cell:
     return make_cell()
 
 

@@ -116,8 +116,12 @@ def node_of(command: str) -> str:
 def running(command: str, environment: dict[str, str], node_names: Observer) -> Iterator[None]:
     """Runs a node, from the moment the others see it until Ctrl-C."""
     shell = ['bash', '-c', f'exec {command}']
-    process = subprocess.Popen(shell, env=environment, start_new_session=True)
     end = time.monotonic() + HANG
+    # a node of the block before may still be in the graph
+    while node_of(command) in node_names():
+        assert time.monotonic() < end, f'{command}: another one runs'
+        time.sleep(0.05)
+    process = subprocess.Popen(shell, env=environment, start_new_session=True)
     try:
         while node_of(command) not in node_names():
             assert process.poll() is None, f'{command}: ended with status {process.returncode}'

@@ -84,6 +84,7 @@ class GraphByHand:
         """Ends everything."""
         for name in [*self.processes]:
             self.end(name, signal.SIGKILL)
+        self._spinner.close()
         self.node.destroy_node()
         rclpy.try_shutdown()
 

@@ -109,6 +109,10 @@ class Spinner:
             self._executor.spin_once(timeout_sec=_LONGEST_WAIT)
         return not _stop_is_requested()
 
+    def close(self) -> None:
+        """Lets go of the node, which else stays in the graph until the process ends."""
+        self._executor.shutdown()
+
 
 def _stop_is_requested() -> bool:
     if take_held_interrupt():

@@ -75,8 +75,11 @@ def spun_until() -> Callable[[Node, Callable[[], bool]], None]:
 
     def spin(node: Node, finished: Callable[[], bool]) -> None:
         spinner, end = Spinner(node), time.monotonic() + PATIENCE
-        while not finished():
-            assert time.monotonic() < end, 'it did not happen'
-            spinner.once()
+        try:
+            while not finished():
+                assert time.monotonic() < end, 'it did not happen'
+                spinner.once()
+        finally:
+            spinner.close()
 
     return spin

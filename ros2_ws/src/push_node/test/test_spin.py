@@ -1,14 +1,17 @@
 """Each node is a real process; what it does is in the few lines of its program."""
 
+import gc
 import os
 import signal
 import time
+import weakref
 from pathlib import Path
 from typing import NoReturn
 
 import pytest
 from push_core.common.errors import InputError
-from push_node.spin import run_node
+from push_node.spin import Spinner, run_node
+from rclpy.node import Node
 
 pytestmark = pytest.mark.processes
 
@@ -197,3 +200,17 @@ def _refused() -> NoReturn:
 def test_a_node_that_ended_leaves_its_process_open_to_signals() -> None:
     assert run_node(_refused, ['--ros-args']) == 2
     assert signal.SIG_IGN not in map(signal.getsignal, (signal.SIGINT, signal.SIGTERM))
+
+
+@pytest.mark.usefixtures('context')
+def test_a_closed_spinner_lets_go_of_its_node() -> None:
+    """Else the middleware keeps threads and sockets of every node that the process has had."""
+    node = Node('closed')
+    node.create_timer(0.01, lambda: None)
+    spinner, seen = Spinner(node), weakref.ref(node)
+    assert spinner.once()
+    spinner.close()
+    node.destroy_node()
+    del node
+    gc.collect()
+    assert seen() is None

@@ -72,6 +72,9 @@ class Client:
             if status.level == DiagnosticStatus.ERROR:
                 self.problems.append(status.message)
 
+    def close(self) -> None:
+        self._spinner.close()
+
     def wait(self, finished: Callable[[], bool], timeout: float = PATIENCE) -> None:
         assert self._happens(finished, timeout)
 
@@ -123,7 +126,9 @@ class Client:
 @pytest.fixture(scope='module')
 def client() -> Iterator[Client]:
     rclpy.init()
-    yield Client()
+    client = Client()
+    yield client
+    client.close()
     rclpy.try_shutdown()
 
 

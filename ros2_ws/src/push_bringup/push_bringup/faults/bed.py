@@ -99,6 +99,7 @@ class Bed:
         self.spin(0.3)
         self.processes.stop('sim_node', 'mpc_node', 'gp_server')
         self.processes.stop('recorder')
+        self._spinner.close()
         self.node.destroy_node()
         if self._link is not None:
             self._link.close()

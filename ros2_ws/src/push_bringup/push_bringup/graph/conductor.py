@@ -67,6 +67,7 @@ class Conductor:
 
     def close(self) -> None:
         """Leaves the graph."""
+        self._spinner.close()
         self._node.destroy_node()
         rclpy.try_shutdown()
 
