@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 from push_core.data import P_Y_LIMIT, PushSet
 from push_core.geometry import displacement_of, twist_of
 from push_core.physics import Slider, with_inertia
-from push_gp.learn import ConeLearner, identified, segments
+from push_gp.learn import ConeLearner, identified, interrupted, segments
 from push_gp.learn.cone_learner import loss
 from push_gp.learn.identification import LARGEST_CHANGE, huber_roots
 from push_gp.models import SmoothCone
@@ -129,6 +129,24 @@ def test_segments_of_a_lap_are_pushes_of_its_plant():
     expected, _ = cone.evaluate(found.p_y, found.beta)
     far = np.abs(found.displacement - expected) / [DISTANCE, DISTANCE, DISTANCE / 0.045]
     assert far.max() < 0.03
+
+
+def noisy_lap(position: float, degrees: float, every: int) -> tuple[np.ndarray, np.ndarray]:
+    """A lap of 1.6 m on a plant, as a camera with noise sees one sample of so many."""
+    truth = replace(NOMINAL, friction_pusher=0.2, support_radius=0.04)
+    poses, tips = lap_of_a_cone(SmoothCone(truth, DISTANCE), 2000)
+    noise = np.random.default_rng(0).normal(size=poses.shape)
+    sigma = [position, position, math.radians(degrees)]
+    return (poses + noise * sigma)[::every], tips[::every]
+
+
+@pytest.mark.parametrize(('position', 'degrees', 'every'), [(5e-4, 0.5, 1), (1e-3, 1.0, 3)])
+def test_a_lap_seen_by_a_noisy_camera_identifies_its_plant(position, degrees, every):
+    lap = noisy_lap(position, degrees, every)
+    assert not interrupted(*lap, NOMINAL).any()
+    found = ConeLearner(NOMINAL, DISTANCE).learn(segments(*lap, NOMINAL, DISTANCE))
+    assert found.pushes > 300
+    assert found.support_radius[0] == pytest.approx(0.04, rel=0.03)
 
 
 def test_an_object_that_is_moved_by_hand_ends_a_segment():

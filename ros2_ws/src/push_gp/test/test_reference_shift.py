@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 from push_gp.learn import ReferenceShift, TimedReference
-from push_gp.learn.reference_shift import GAIN, LARGEST
+from push_gp.learn.reference_shift import GAIN, LARGEST, WANDERED
+from push_gp.learn.smoothing import PoseNoise
 
 LAPS = 3
 
@@ -51,6 +52,25 @@ def test_what_was_not_measured_teaches_nothing(reference):
     assert not untaught.any()
     taught = learner.shift[int(0.1 * len(learner.shift)) : int(0.4 * len(learner.shift))]
     assert np.allclose(taught, -GAIN * 1e-3)
+
+
+def test_what_noise_explains_does_not_shift_the_reference(reference):
+    learner, random = ReferenceShift(reference), np.random.default_rng(0)
+    noise = PoseNoise(1e-3, 0.02, 2.7e-3)
+    white = random.normal(0.0, 1e-3, (2000, 2))
+    size = noise.position * math.sqrt(noise.spacing / WANDERED)
+    wander = np.tile(random.normal(0.0, size, (50, 1, 2)), (1, 40, 1)).reshape(-1, 2)
+    learner.trust(white + wander, noise)
+    assert learner.gain < 0.3 * GAIN
+    learner.trust(white + wander + [5e-3, 0.0], noise)
+    assert learner.gain > 0.9 * GAIN
+    learner.trust(white, noise)
+    learner.learn(lap_times(reference, 0)[:1000], white[:1000])
+    assert not learner.shift.any()
+    learner.trust(white, PoseNoise())
+    assert learner.gain == GAIN
+    learner.trust(np.empty((0, 2)), noise)
+    assert learner.gain == 0.0
 
 
 def test_the_shift_is_bounded(reference):

@@ -13,7 +13,7 @@ from push_gp.learn.cone_learner import FEWEST, ConeLearner, log_ratio
 from push_gp.learn.identification import Identified
 from push_gp.learn.laps import MeasuredLap
 from push_gp.learn.reference_shift import ReferenceShift
-from push_gp.learn.segments import interrupted, segments
+from push_gp.learn.segments import interrupted, noise_of, segments
 from push_gp.learn.timed_reference import TimedReference
 from push_gp.models import NOMINAL_DISTANCE, SmoothCone
 
@@ -164,17 +164,21 @@ class LapLearner:
         # what follows another model is disturbed by it
         broken[0] |= is_another(self._before.identified, after)
         teaches = np.zeros(len(lap.time), dtype=bool)
-        errors = errors.copy()
+        drove: list[tuple[Learned, NDArray[np.bool_]]] = []
         for lesson_id in np.unique(lap.driven):
             lesson = self._lessons.get(str(lesson_id))
             rows = lap.driven == lesson_id
             if lesson is None or is_another(lesson.identified, after):
                 broken |= rows
                 continue
-            # in real time a lesson comes in mid-lap; until then the one before it drives
-            errors[rows] += self._shift.driven_by(lesson.shift, lap.time[rows])
+            drove.append((lesson, rows))
             teaches |= rows
         teaches &= ~self._after(lap.time, lap.time[broken])
+        self._shift.trust(errors[teaches], noise_of(lap.object_pose, lap.tip))
+        errors = errors.copy()
+        for lesson, rows in drove:
+            # in real time a lesson comes in mid-lap; until then the one before it drives
+            errors[rows] += self._shift.driven_by(lesson.shift, lap.time[rows])
         self._shift.learn(lap.time[teaches], errors[teaches])
 
     def _after(self, times: Array, disturbances: Array) -> NDArray[np.bool_]:

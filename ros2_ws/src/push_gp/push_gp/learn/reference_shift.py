@@ -8,10 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from push_core.geometry import Array
 
+from push_gp.learn.smoothing import PoseNoise
 from push_gp.learn.timed_reference import TimedReference
 
 GAIN = 0.6
-"""Share of the last error that the next lap is shifted by."""
+"""Largest share of the last error that the next lap is shifted by."""
+
+WANDERED = 4.5e-3
+"""Path [m] over which the mean of the camera's noise is what the object wanders by: noise moves
+the object through the controller, differently in each lap."""
 
 SMOOTHED = 0.02
 """Length of path [m] over which the error is averaged (half the width of a Hann window)."""
@@ -27,12 +32,13 @@ class ReferenceShift:
 
     Attributes:
         shift: (n, 2) [m] at every sample of the lap, in the frame of the start.
+        gain: share of the next error that it shifts against.
     """
 
     def __init__(self, reference: TimedReference) -> None:
         """Starts from none."""
         self._lap = reference.lap_time
-        self.shift = np.zeros((reference.samples, 2))
+        self.shift, self.gain = np.zeros((reference.samples, 2)), GAIN
         half = max(1, round(SMOOTHED / reference.speed / reference.period))
         self._window = np.hanning(2 * half + 3)[1:-1]
 
@@ -40,12 +46,28 @@ class ReferenceShift:
         """Goes on from another shift (n, 2), or from none (0, 2)."""
         self.shift = self._whole(shift)
 
+    def trust(self, errors: Array, noise: PoseNoise) -> None:
+        """Sets the gain to `GAIN` times the share of the squared errors that can recur.
+
+        Source: James and Stein 1961; the rest is the camera's noise and what the object wanders
+        by because of it.
+
+        Args:
+            errors: (m, 2) of the next lap [m].
+            noise: of the camera in it.
+        """
+        white = 2.0 * noise.position**2
+        moved = float(np.mean(np.sum(errors**2, axis=1))) - white if len(errors) else 0.0
+        wandered = white * noise.spacing / WANDERED
+        self.gain = GAIN * max(0.0, 1.0 - wandered / moved) if moved > 0.0 else 0.0
+
     def driven_by(self, shift: Array, times: Array) -> Array:
         """What to add to errors (m, 2) at times (m,) of the reference under another shift (n, 2).
 
         With it `learn` shifts those places from that shift on; (0, 2) is none.
         """
-        return np.asarray((self.shift - self._whole(shift))[self._rows(times)] / GAIN)
+        before = (self.shift - self._whole(shift))[self._rows(times)]
+        return before / self.gain if self.gain else np.zeros_like(before)
 
     def learn(self, times: Array, errors: Array) -> None:
         """Shifts the reference against the errors of a lap; places without one learn nothing.
@@ -58,7 +80,7 @@ class ReferenceShift:
         seen = self._smooth(known)
         mean = self._smooth(errors) / np.maximum(seen, _LEAST)
         taught = np.minimum(seen / _LEAST, 1.0)
-        self.shift = np.clip(self.shift - GAIN * taught * mean, -LARGEST, LARGEST)
+        self.shift = np.clip(self.shift - self.gain * taught * mean, -LARGEST, LARGEST)
 
     def _whole(self, shift: Array) -> Array:
         return shift if len(shift) else np.zeros_like(self.shift)

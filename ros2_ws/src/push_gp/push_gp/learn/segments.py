@@ -1,19 +1,27 @@
 """Cuts the measured motion of a lap into short pushes, in the format of training pushes."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from push_core.data import P_Y_LIMIT, PushSet
 from push_core.geometry import Array
 from push_core.physics import GRAZING, Slider
 
+from push_gp.learn.smoothing import PoseNoise, pose_noise, smoothed_at
+
 CONTACT_GAP = 1e-3
-"""Largest measured gap [m] at which the tip is taken to push."""
+"""Largest measured gap [m] at which the tip is taken to push, of a camera without noise."""
+
+FARTHEST_NOISE = 4.5
+"""Standard deviations of the camera's noise that a gap may be larger: one in 300,000 poses is."""
 
 OTHER_SIZE = 0.12
 """Share of the size by which the object may be another than the nominal one."""
 
 JUMP = np.array([2e-3, 0.03])
-"""Motion [m], [rad] of the object from one picture to the next that any push may make."""
+"""Motion [m], [rad] of the object from one picture to the next that any push may make; noise of
+the camera comes on top."""
 
 FARTHEST = 1e3
 """Largest value of a pose [m], [rad] or of the tip [m] that can have been measured."""
@@ -25,7 +33,8 @@ JUMP_RATIO = 5.0
 def segments(object_poses: Array, tips: Array, slider: Slider, distance: float) -> PushSet:
     """The pushes of a stretch of measurements, one after the other.
 
-    Samples without contact, and jumps of the object that no push explains, end a segment.
+    Samples without contact, and jumps of the object that no push explains, end a segment. Noisy
+    poses are smoothed over the way of the tip.
 
     Args:
         object_poses: (m, 3) in the order of time, world frame [m, m, rad].
@@ -36,13 +45,13 @@ def segments(object_poses: Array, tips: Array, slider: Slider, distance: float) 
     poses = np.array(object_poses, dtype=float).reshape(-1, 3)
     known = np.abs(poses[:, 2]) < FARTHEST
     poses[known, 2] = np.unwrap(poses[known, 2])
-    starts, ends = [], []
+    starts, ends, noise = [], [], noise_of(poses, tips)
     for run in _pushing_runs(poses, tips, slider):
         moved = np.hypot(*np.diff(tips[run], axis=0).T)
         travel = np.concatenate(([0.0], np.cumsum(moved)))
         marks = np.arange(0.0, travel[-1], distance)
         track = np.column_stack((poses[run], tips[run]))
-        at_marks = np.column_stack([np.interp(marks, travel, column) for column in track.T])
+        at_marks = smoothed_at(marks, travel, track, noise.width(distance))
         starts.append(at_marks[:-1])
         ends.append(at_marks[1:])
     if not starts:
@@ -72,14 +81,25 @@ def interrupted(object_poses: Array, tips: Array, slider: Slider) -> NDArray[np.
     unknown = ~(np.abs(rows) < FARTHEST).all(axis=1)
     rows[unknown] = 0.0
     along, _ = _in_frame(rows, rows[:, 3:] - rows[:, :2])
-    apart: NDArray[np.bool_] = unknown | (_face(along[~unknown], slider) - along > CONTACT_GAP)
+    noise = noise_of(object_poses, tips)
+    gap = max(CONTACT_GAP, FARTHEST_NOISE * noise.position)
+    apart: NDArray[np.bool_] = unknown | (_face(along[~unknown], slider) - along > gap)
     steps = np.diff(rows, axis=0)
     moved = np.stack([np.hypot(*steps[:, :2].T), np.abs(steps[:, 2]), np.hypot(*steps[:, 3:].T)])
     usual = JUMP_RATIO * np.median(moved, axis=1, keepdims=True)
-    jumps = (moved > np.maximum(usual, [[JUMP[0]], [JUMP[1]], [JUMP[0]]])).any(axis=0)
+    twice = math.sqrt(2.0) * FARTHEST_NOISE
+    least = JUMP[0] + twice * noise.position, JUMP[1] + twice * noise.angle, JUMP[0]
+    jumps = (moved > np.maximum(usual, np.array(least)[:, None])).any(axis=0)
     result = apart.copy()
     result[1:] |= apart[:-1] | jumps
     return result
+
+
+def noise_of(object_poses: Array, tips: Array) -> PoseNoise:
+    """The noise of the poses (m, 3) that can have been measured, for tips (m, 2)."""
+    rows = np.column_stack((object_poses, tips))
+    known = (np.abs(rows) < FARTHEST).all(axis=1)
+    return pose_noise(rows[known, :3], rows[known, 3:])
 
 
 def _face(along: Array, slider: Slider) -> float:
