@@ -84,6 +84,25 @@ def test_a_few_pieces_identify_the_plant_and_a_change_of_it():
     assert learner.known.shift is known.shift
 
 
+def seen_with_noise(lap: MeasuredLap, random: np.random.Generator) -> MeasuredLap:
+    noise = random.normal(size=lap.object_pose.shape) * [5e-4, 5e-4, math.radians(0.5)]
+    return replace(lap, object_pose=lap.object_pose + noise)
+
+
+def test_noisy_pieces_and_laps_identify_the_plant_too():
+    learner, random = LapLearner(NOMINAL, BASE), np.random.default_rng(0)
+    learner.begin(reference())
+    for piece in pieces_of(TRUTH)[:10]:
+        learner.refine(seen_with_noise(piece, random))
+    assert learner.known.identified.support_radius[0] == pytest.approx(0.036, rel=0.1)
+    learned = learner.learn(seen_with_noise(MeasuredLap.of(ticks(0)), random))
+    assert learned.identified.support_radius[0] == pytest.approx(0.036, rel=0.03)
+    assert learned.identified.friction[0] == pytest.approx(0.15, rel=0.2)
+    # the poses are noisy, but no gap and no jump: the whole lap teaches the reference
+    noisy = seen_with_noise(MeasuredLap.of(ticks(1, learned.lesson_id(BASE))), random)
+    assert learner.learn(noisy).shift[100:-100].any(axis=1).all()
+
+
 def test_a_piece_with_a_kick_or_a_gap_teaches_nothing():
     for spoil in ('kick', 'gap'):
         learner = LapLearner(NOMINAL, BASE)
