@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from push_gp.learn import ReferenceShift, TimedReference
-from push_gp.learn.reference_shift import GAIN, LARGEST, WANDERED
+from push_gp.learn.reference_shift import FASTEST, GAIN, LARGEST, WANDERED
 from push_gp.learn.smoothing import PoseNoise
 
 LAPS = 3
@@ -76,8 +76,19 @@ def test_what_noise_explains_does_not_shift_the_reference(reference):
 def test_the_shift_is_bounded(reference):
     learner = ReferenceShift(reference)
     times = lap_times(reference, 1)
-    learner.learn(times, np.full((len(times), 2), 1.0))
+    for _ in range(20):
+        learner.learn(times, np.full((len(times), 2), 1.0))
     assert np.abs(learner.shift).max() == pytest.approx(LARGEST)
+
+
+def test_a_large_error_shifts_the_reference_in_small_steps_along_itself(reference):
+    learner = ReferenceShift(reference)
+    times = lap_times(reference, 1)
+    error = np.array([0.012, -0.016])
+    learner.learn(times, np.tile(error, (len(times), 1)))
+    np.testing.assert_allclose(
+        learner.shift, np.tile(-FASTEST * error / 0.02, (len(learner.shift), 1))
+    )
 
 
 def test_errors_are_those_in_the_frame_of_the_start(reference):

@@ -21,6 +21,9 @@ the object through the controller, differently in each lap."""
 SMOOTHED = 0.02
 """Length of path [m] over which the error is averaged (half the width of a Hann window)."""
 
+FASTEST = 1.5e-3
+"""Largest step [m] of the shift from one lap to the next: larger ones disturb a sliding tip."""
+
 LARGEST = 0.01
 """Largest shift of the reference [m] along each axis."""
 
@@ -80,7 +83,9 @@ class ReferenceShift:
         seen = self._smooth(known)
         mean = self._smooth(errors) / np.maximum(seen, _LEAST)
         taught = np.minimum(seen / _LEAST, 1.0)
-        self.shift = np.clip(self.shift - self.gain * taught * mean, -LARGEST, LARGEST)
+        step = self.gain * taught * mean
+        step *= FASTEST / np.maximum(np.hypot(*step.T), FASTEST)[:, None]
+        self.shift = np.clip(self.shift - step, -LARGEST, LARGEST)
 
     def _whole(self, shift: Array) -> Array:
         return shift if len(shift) else np.zeros_like(self.shift)
