@@ -46,7 +46,6 @@ def at_speed(
     slider of the Family of Modes is fitted to pushes of little rotation, and goes without.
     """
     trained = CONTROLLERS[settings.controller].trained_model
-    lowest = INERTIA_FROM if identified else settings.inertia_from
-    if not (trained or identified) or speed < lowest:
+    if not (trained or identified) or speed < INERTIA_FROM:
         return table, slider
     return table_at_speed(table, slider, speed), slider_at_speed(slider, speed)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from push_core.common import nested, setting, validate
-from push_core.physics import INERTIA_FROM, ActuatorSettings, SafetyLimits
+from push_core.physics import ActuatorSettings, SafetyLimits
 
 from push_mpc.settings.controllers import CONTROLLERS
 from push_mpc.settings.guard_settings import GuardSettings
@@ -116,13 +116,6 @@ class ControllerSettings:
         '-1: as in the matrices of the paper',
         low=-1.0,
         high=1.0,
-    )
-    inertia_from: float = setting(
-        INERTIA_FROM,
-        'speed of the plan from which the model of gp has the inertia of the object',
-        unit='m/s',
-        low=0.0,
-        high=10.0,
     )
     consistent_plan: bool = setting(
         True, "re-plan with the model's own motion equations when a model arrives"
